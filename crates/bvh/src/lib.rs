@@ -1,0 +1,3 @@
+//! Bvh (skeleton).
+mod accel;
+pub use accel::{Accel, HitFilter};

@@ -1,0 +1,1 @@
+//! Radiometric quantities (helper fills).

@@ -1,0 +1,107 @@
+use std::cell::Cell;
+
+use etendue_core::{Frame, Origin, Transform, Vec2, Vec3A, Vec4};
+
+/// All that traversal keeps of a hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Ray parameter.
+    pub t: f32,
+    /// Barycentric weights of vertices 1 and 2, or a shape's own parameters.
+    pub uv: Vec2,
+    /// Instance, or [`Hit::NO_INSTANCE`].
+    pub inst: u32,
+    /// Geometry (a mesh or a shape) of the scene.
+    pub geom: u32,
+    /// Triangle within the mesh; 0 for shapes.
+    pub prim: u32,
+}
+
+impl Hit {
+    /// The instance of geometry that stands in the world itself.
+    pub const NO_INSTANCE: u32 = u32::MAX;
+
+    /// Whether this hit wins over `other`: nearer, or at the same `t` the lower (inst, geom, prim). A total order,
+    /// so the closest hit never depends on the order of visits.
+    #[inline]
+    pub fn precedes(&self, other: &Hit) -> bool {
+        self.t < other.t
+            || (self.t == other.t
+                && (self.inst, self.geom, self.prim) < (other.inst, other.geom, other.prim))
+    }
+}
+
+/// Everything about one point on a surface; made once, for the closest hit.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Position.
+    pub p: Vec3A,
+    /// Bound on its absolute error per axis.
+    pub p_err: Vec3A,
+    /// Unit geometric normal of the front side (counter-clockwise), *not* turned toward the ray.
+    pub ng: Vec3A,
+    /// Shading frame; its `z` is the shading normal, on the same side as `ng`, its `x` follows `dpdu`.
+    pub shading: Frame,
+    /// Texture coordinates, two sets.
+    pub uv: [Vec2; 2],
+    /// Vertex colour and alpha, linear; white where there is none.
+    pub color: Vec4,
+    /// Derivative of the position by `uv[0].x`; zero where unknown.
+    pub dpdu: Vec3A,
+    /// Derivative of the position by `uv[0].y`; zero where unknown.
+    pub dpdv: Vec3A,
+    /// Radius of the ray's cone at the point, metres; 0 turns texture filtering off.
+    pub footprint: f32,
+    /// Moment in the shutter interval, in `[0, 1)`.
+    pub time: f32,
+    /// Instance, geometry and triangle, as in [`Hit`].
+    pub inst: u32,
+    /// Geometry.
+    pub geom: u32,
+    /// Triangle.
+    pub prim: u32,
+    /// Texture look-ups made through this surface: statistics only.
+    pub fetches: Cell<u32>,
+}
+
+impl Surface {
+    /// A point with a normal and nothing else known about it.
+    pub fn new(p: Vec3A, p_err: Vec3A, ng: Vec3A) -> Self {
+        Self {
+            p,
+            p_err,
+            ng,
+            shading: Frame::from_normal(ng),
+            uv: [Vec2::ZERO; 2],
+            color: Vec4::ONE,
+            dpdu: Vec3A::ZERO,
+            dpdv: Vec3A::ZERO,
+            footprint: 0.0,
+            time: 0.0,
+            inst: Hit::NO_INSTANCE,
+            geom: 0,
+            prim: 0,
+            fetches: Cell::new(0),
+        }
+    }
+
+    /// The point as rays leave from it.
+    #[inline]
+    pub fn origin(&self) -> Origin {
+        Origin { p: self.p, p_err: self.p_err, ng: self.ng }
+    }
+
+    /// The surface as seen in the space that `transform` maps to; normals keep their side under a mirror.
+    #[must_use]
+    pub fn transformed(mut self, transform: &Transform) -> Self {
+        let (p, p_err) = transform.point_with_error(self.p, self.p_err);
+        self.p = p;
+        self.p_err = p_err;
+        self.ng = transform.normal(self.ng);
+        self.dpdu = transform.vector(self.dpdu);
+        self.dpdv = transform.vector(self.dpdv);
+        let ns = transform.normal(self.shading.z);
+        self.shading = Frame::from_normal_tangent(ns, transform.vector(self.shading.x));
+        self
+    }
+}

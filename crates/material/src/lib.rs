@@ -1,0 +1,3 @@
+//! Material (skeleton).
+mod material;
+pub use material::{AlphaPoint, Material, MediumId};

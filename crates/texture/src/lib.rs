@@ -1,0 +1,3 @@
+//! Texture (skeleton).
+mod texture;
+pub use texture::{TexPoint, Texture};
