@@ -177,7 +177,8 @@ impl Transform {
     /// A position known to within `err`, and the bound after the map (γ(3) per row, Pharr et al. 2023, section 6.8.5).
     #[inline]
     pub fn point_with_error(&self, p: Vec3A, err: Vec3A) -> (Vec3A, Vec3A) {
-        let a = Mat3A::from_cols(self.linear.x_axis.abs(), self.linear.y_axis.abs(), self.linear.z_axis.abs());
+        let a =
+            Mat3A::from_cols(self.linear.x_axis.abs(), self.linear.y_axis.abs(), self.linear.z_axis.abs());
         let carried = a * err;
         let rounding = (a * p.abs() + self.translation.abs()) * gamma(3);
         (self.point(p), carried * (1.0 + gamma(3)) + rounding)

@@ -1,5 +1,6 @@
 use std::cell::Cell;
 
+use etendue_core::rounding::gamma;
 use etendue_core::{Frame, Origin, Transform, Vec2, Vec3A, Vec4};
 
 /// All that traversal keeps of a hit.
@@ -92,11 +93,14 @@ impl Surface {
     }
 
     /// The surface as seen in the space that `transform` maps to; normals keep their side under a mirror.
+    ///
+    /// The error bound also covers the way back: a ray that leaves the mapped point by [`Surface::origin`] still
+    /// starts on the right side of the surface when it is mapped into object space again.
     #[must_use]
     pub fn transformed(mut self, transform: &Transform) -> Self {
         let (p, p_err) = transform.point_with_error(self.p, self.p_err);
         self.p = p;
-        self.p_err = p_err;
+        self.p_err = p_err + return_error(transform, p);
         self.ng = transform.normal(self.ng);
         self.dpdu = transform.vector(self.dpdu);
         self.dpdv = transform.vector(self.dpdv);
@@ -104,4 +108,19 @@ impl Surface {
         self.shading = Frame::from_normal_tangent(ns, transform.vector(self.shading.x));
         self
     }
+}
+
+/// Bound on how far a point near `p` lands from where it was after [`Transform::ray_to_object`], seen from the space
+/// that `transform` maps to.
+///
+/// Mapping back rounds a sum of four terms of matrix entries that were each rounded once themselves: γ(6) of the sum
+/// of their magnitudes, which covers the few ulp by which the point may have been moved as well. The forward map then
+/// magnifies it.
+pub fn return_error(transform: &Transform, p: Vec3A) -> Vec3A {
+    let [x, y, z, _] = transform.columns().map(Vec3A::abs);
+    let [ix, iy, iz, it] = transform.inverse().columns().map(Vec3A::abs);
+    let p = p.abs();
+    let object = (ix * p.x + iy * p.y + iz * p.z + it) * gamma(6);
+    // The forward matrix was rounded too; point_with_error counts the sum alone.
+    (x * object.x + y * object.y + z * object.z) * (1.0 + gamma(6)) + p * gamma(2)
 }

@@ -1,1 +1,48 @@
-//! skeleton
+//! Integrators turn camera rays into radiance; [`render`] turns a scene, a camera and an integrator into a film.
+//!
+//! The picture is a function of its inputs: the same bits from any number of threads, any tile size, and any
+//! division of the samples into ranges. [`replay`] gives the contribution of one sample alone.
+//!
+//! ```
+//! use etendue_camera::{Film, Perspective};
+//! use etendue_core::{Spectrum, UVec2, Vec3A};
+//! use etendue_geometry::Sphere;
+//! use etendue_integrator::{PathTracer, RenderOptions, render};
+//! use etendue_light::ConstantEnvironment;
+//! use etendue_material::Diffuse;
+//! use etendue_sampling::Sobol;
+//! use etendue_scene::SceneBuilder;
+//!
+//! let mut b = SceneBuilder::new();
+//! let gray = b.material(Diffuse::new(Spectrum::gray(0.5)));
+//! b.add(Sphere::new(Vec3A::ZERO, 1.0)?, gray);
+//! b.light(ConstantEnvironment::new(Spectrum::ONE));
+//! let scene = b.build()?;
+//!
+//! let size = UVec2::new(8, 8);
+//! let camera = Perspective::look_at(Vec3A::Z * 4.0, Vec3A::ZERO, Vec3A::Y, 20.0, size)?;
+//! let mut film = Film::new(size, 1)?;
+//! let report =
+//!     render(&scene, &camera, &PathTracer::default(), Sobol::new(1, 16), &mut film, &RenderOptions::default())?;
+//! assert_eq!(report.samples, 8 * 8 * 16);
+//! assert_eq!(report.counts.texture_fetches, 0, "there are no textures to look up");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Limits: surfaces in a vacuum; no media yet. Uses core, sampling, geometry, bsdf, light, camera and scene.
+
+mod context;
+mod integrator;
+mod options;
+mod path;
+mod recorder;
+mod render;
+mod report;
+
+pub use context::{Context, Counts};
+pub use integrator::{Integrator, Sample};
+pub use options::{RenderError, RenderOptions};
+pub use path::{DirectLight, PathTracer, Roulette};
+pub use recorder::{Contribution, ContributionKind, FirstHitRecorder, Recorder, Vertex};
+pub use render::{Replay, render, replay, stream_of};
+pub use report::{Ended, Rejected, Report};

@@ -12,16 +12,18 @@ pub struct Dim(u32);
 pub enum Slot {
     /// 2-D: point on a light. The pick of the light takes the first coordinate and remaps it.
     Light = 0,
-    /// 2-D: scattered direction. The choice of the lobe takes the first coordinate and remaps it.
+    /// 2-D: scattered direction.
     Bsdf = 2,
     /// 1-D: Russian roulette.
     Roulette = 4,
     /// 1-D: opacity along the ray that leaves.
     Cutout = 5,
+    /// 1-D: which lobe of the BSDF.
+    Lobe = 6,
     /// First spare number.
-    Spare0 = 6,
+    Spare0 = 7,
     /// Second spare number.
-    Spare1 = 7,
+    Spare1 = 8,
 }
 
 impl Dim {
@@ -32,7 +34,7 @@ impl Dim {
     /// 1-D: moment in the shutter interval; shares the lens's block (its own fresh dimension beside it).
     pub const TIME: Self = Self(8);
     /// Numbers per path vertex after the camera block.
-    pub const STRIDE: u32 = 8;
+    pub const STRIDE: u32 = 9;
     /// Where the strides begin; below are the camera's numbers and those of the first vertex that joined them.
     pub const FIRST: u32 = 16;
 

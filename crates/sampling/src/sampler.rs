@@ -9,6 +9,8 @@ pub struct BounceDraws {
     pub light: Vec2,
     /// [`Slot::Bsdf`].
     pub bsdf: Vec2,
+    /// [`Slot::Lobe`].
+    pub lobe: f32,
     /// [`Slot::Roulette`].
     pub roulette: f32,
 }
@@ -59,6 +61,7 @@ pub trait Sampler: Copy + Send + Sync {
         BounceDraws {
             light: self.get_2d(Dim::bounce(depth, Slot::Light)),
             bsdf: self.get_2d(Dim::bounce(depth, Slot::Bsdf)),
+            lobe: self.get_1d(Dim::bounce(depth, Slot::Lobe)),
             roulette: self.get_1d(Dim::bounce(depth, Slot::Roulette)),
         }
     }

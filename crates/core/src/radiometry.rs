@@ -1,1 +1,0 @@
-//! Radiometric quantities (helper fills).

@@ -1,0 +1,93 @@
+use std::path::Path;
+
+use etendue_camera::Film;
+use etendue_core::UVec2;
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec, Text,
+    WritableImage,
+};
+
+use crate::{WriteError, write_atomically};
+
+/// What is said about a picture inside its file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ExrInfo {
+    /// Biased options that were in force; empty for an unbiased picture.
+    pub bias: Vec<String>,
+    /// Further (name, value) pairs, such as a seed.
+    pub notes: Vec<(String, String)>,
+}
+
+/// Writes a film as OpenEXR in 32-bit floats: R, G, B, and every auxiliary plane it keeps (`albedo.R` …,
+/// `normal.X` …, `depth.Z`, `id.inst` …, `A`), with the samples per pixel and any bias in the attributes.
+///
+/// # Errors
+/// [`WriteError`]; the target is then as it was.
+pub fn write_exr(path: &Path, film: &Film, info: &ExrInfo) -> Result<(), WriteError> {
+    let size = film.size();
+    let n = size.x as usize * size.y as usize;
+    let pixel = |i: usize| UVec2::new((i % size.x as usize) as u32, (i / size.x as usize) as u32);
+    let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = SmallVec::new();
+    let mut float = |name: &str, f: &dyn Fn(UVec2) -> f32| {
+        let samples = (0..n).map(|i| f(pixel(i))).collect();
+        channels.push(AnyChannel::new(name, FlatSamples::F32(samples)));
+    };
+    for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
+        float(name, &|p| film.mean(p)[c]);
+    }
+    let planes = film.planes();
+    if planes.alpha {
+        float("A", &|p| film.alpha(p).unwrap_or(0.0));
+    }
+    if planes.albedo {
+        for (c, name) in ["albedo.R", "albedo.G", "albedo.B"].into_iter().enumerate() {
+            float(name, &|p| film.albedo(p).map_or(0.0, |a| a[c]));
+        }
+    }
+    if planes.normal {
+        for (c, name) in ["normal.X", "normal.Y", "normal.Z"].into_iter().enumerate() {
+            float(name, &|p| film.normal(p).map_or(0.0, |v| v[c]));
+        }
+    }
+    if planes.depth {
+        float("depth.Z", &|p| film.depth(p).unwrap_or(f32::INFINITY));
+    }
+    if planes.ids {
+        let mut id = |name: &str, f: &dyn Fn(etendue_camera::Ids) -> u32| {
+            // One beyond the id, so that 0 is nothing.
+            let samples =
+                (0..n).map(|i| film.ids(pixel(i)).map_or(0, |ids| f(ids).wrapping_add(1))).collect();
+            channels.push(AnyChannel::new(name, FlatSamples::U32(samples)));
+        };
+        id("id.inst", &|i| i.inst);
+        id("id.geom", &|i| i.geom);
+        id("id.prim", &|i| i.prim);
+    }
+
+    let mut attributes = LayerAttributes::named("etendue");
+    attributes.software_name = Text::new_or_none("etendue");
+    let mut note = |name: &str, value: &str| {
+        if let (Some(name), Some(value)) = (Text::new_or_none(name), Text::new_or_none(value)) {
+            attributes.other.insert(name, AttributeValue::Text(value));
+        }
+    };
+    let samples = film.total_samples() as f64 / n as f64;
+    note("etendue.spp", &format!("{samples}"));
+    note("etendue.bias", &if info.bias.is_empty() { "none".into() } else { info.bias.join("; ") });
+    for (name, value) in &info.notes {
+        note(&format!("etendue.{name}"), value);
+    }
+    let layer = Layer::new(
+        (size.x as usize, size.y as usize),
+        attributes,
+        Encoding::FAST_LOSSLESS,
+        AnyChannels::sort(channels),
+    );
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    Image::from_layer(layer)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut bytes)
+        .map_err(|e| WriteError::Encode { path: path.into(), reason: e.to_string() })?;
+    write_atomically(path, &bytes.into_inner())
+}

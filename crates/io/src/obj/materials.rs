@@ -1,0 +1,253 @@
+use std::collections::HashMap;
+
+use etendue_core::Spectrum;
+use etendue_geometry::Geometry;
+use etendue_material::{Cutout, Diffuse, Glass, Metal, MirrorMaterial};
+use etendue_scene::{Emission, GeomId, MaterialId, SceneBuilder};
+use etendue_texture::{ImageTexture, ScalarTex, Tex};
+
+use crate::{Limits, Resolver};
+
+/// Reads one MTL file. Whatever is wrong with it becomes a warning: geometry without its colours is better than none.
+pub(crate) fn parse(
+    name: &str,
+    resolver: &dyn Resolver,
+    limits: &Limits,
+    warnings: &mut Vec<String>,
+) -> (Vec<tobj::Material>, HashMap<String, usize>) {
+    let bytes = match resolver.read(name, limits.file_bytes) {
+        Ok(bytes) => bytes,
+        Err(e) => {
+            warnings.push(format!("material file: {e}; its materials are gray"));
+            return Default::default();
+        }
+    };
+    let text = String::from_utf8_lossy(&bytes);
+    let mut safe = String::with_capacity(text.len());
+    for (i, line) in text.lines().enumerate() {
+        if line.len() > limits.line_bytes {
+            warnings.push(format!("{name}, line {}: too long; skipped", i + 1));
+        } else if let Err(why) = push_safe(line, &mut safe) {
+            warnings.push(format!("{name}, line {}: {why}; skipped: '{}'", i + 1, line.trim()));
+        }
+        safe.push('\n');
+    }
+    match tobj::load_mtl_buf(&mut safe.as_bytes()) {
+        Ok(parsed) => parsed,
+        Err(e) => {
+            warnings.push(format!("material file '{name}': {e}; its materials are gray"));
+            Default::default()
+        }
+    }
+}
+
+/// Appends a line if the parser can take it. The parser gives up on a whole file over one bad number, and expects
+/// three numbers where the format allows one.
+fn push_safe(line: &str, out: &mut String) -> Result<(), &'static str> {
+    let mut words = line.split_whitespace();
+    let Some(key) = words.next() else { return Ok(()) };
+    let numbers = || line.split_whitespace().skip(1).map_while(|w| w.parse::<f32>().ok()).collect::<Vec<_>>();
+    match key {
+        "Ka" | "Kd" | "Ks" | "Ke" => match numbers()[..] {
+            [r, g, b, ..] => out.push_str(&format!("{key} {r} {g} {b}")),
+            [v] => out.push_str(&format!("{key} {v} {v} {v}")),
+            _ => return Err("a colour needs one or three numbers (spectral files are not read)"),
+        },
+        "Ns" | "Ni" | "d" | "Tr" | "Pr" | "Pm" => match numbers().first() {
+            Some(v) => out.push_str(&format!("{key} {v}")),
+            None => return Err("a number is missing"),
+        },
+        "illum" => match words.next().and_then(|w| w.parse::<u8>().ok()) {
+            Some(v) => out.push_str(&format!("illum {v}")),
+            None => return Err("an illumination model is a small whole number"),
+        },
+        // `newmtl` without a name would be refused; a nameless material can still be used by a nameless `usemtl`.
+        "newmtl" if words.next().is_none() => out.push_str("newmtl unnamed"),
+        _ => out.push_str(line.trim()),
+    }
+    Ok(())
+}
+
+/// Materials of a file as they come into use: what no face names is never made, what names a texture decodes it once.
+pub(crate) struct Made<'a> {
+    mtl: &'a [tobj::Material],
+    resolver: &'a dyn Resolver,
+    limits: &'a Limits,
+    ids: HashMap<Option<usize>, MaterialId>,
+    images: HashMap<String, Option<ImageTexture>>,
+    image_bytes: u64,
+    pub(crate) warnings: Vec<String>,
+}
+
+impl<'a> Made<'a> {
+    pub(crate) fn new(mtl: &'a [tobj::Material], resolver: &'a dyn Resolver, limits: &'a Limits) -> Self {
+        let (ids, images) = Default::default();
+        Self { mtl, resolver, limits, ids, images, image_bytes: 0, warnings: Vec::new() }
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// The material of a model, made on first use. Index `None` or out of range is a plain gray.
+    pub(crate) fn material(&mut self, index: Option<usize>, builder: &mut SceneBuilder) -> MaterialId {
+        let index = index.filter(|&i| i < self.mtl.len());
+        if let Some(&id) = self.ids.get(&index) {
+            return id;
+        }
+        let id = match index.and_then(|i| self.mtl.get(i)) {
+            Some(m) => self.make(m, builder),
+            None => builder.material(Diffuse::new(Spectrum::gray(0.6))),
+        };
+        self.ids.insert(index, id);
+        id
+    }
+
+    /// Makes the model's geometry emit if its material does. True if it does.
+    pub(crate) fn emit(&self, index: Option<usize>, geom: GeomId, builder: &mut SceneBuilder) -> bool {
+        let Some(ke) = index.and_then(|i| self.mtl.get(i)).and_then(|m| emissive(m)) else { return false };
+        builder.emit(geom, Emission::new(Tex::from(ke)));
+        true
+    }
+
+    fn make(&mut self, m: &tobj::Material, builder: &mut SceneBuilder) -> MaterialId {
+        let name = &m.name;
+        let kd = m.diffuse.map_or(Spectrum::gray(0.6), clamped);
+        let ks = m.specular.map_or(Spectrum::BLACK, clamped);
+        let number = |key: &str| m.unknown_param.get(key).and_then(|v| v.trim().parse::<f32>().ok());
+        let roughness = number("Pr").map(|r| r.clamp(0.0, 1.0));
+        let metallic = number("Pm").unwrap_or(0.0);
+        let dissolve = m.dissolve.or(number("Tr").map(|t| 1.0 - t)).filter(|d| d.is_finite()).unwrap_or(1.0);
+        let illum = m.illumination_model.unwrap_or(2);
+        // The format's models 4, 6, 7 and 9 are glass, 3, 5 and 8 mirrors; a mirror needs something to reflect with.
+        if matches!(illum, 4 | 6 | 7 | 9) {
+            let eta = m.optical_density.filter(|n| *n > 1.0 && n.is_finite()).unwrap_or(1.5);
+            return builder.material(Glass::new(eta));
+        }
+        if metallic >= 0.5 {
+            return builder.material(Metal::tinted(kd, roughness.unwrap_or(0.3)));
+        }
+        if matches!(illum, 3 | 5 | 8) && kd.is_black() && !ks.is_black() {
+            return builder.material(MirrorMaterial::new(ks));
+        }
+        if !ks.is_black() {
+            self.warnings.push(format!("material '{name}': its highlight (Ks, Ns) has no physical meaning; dropped"));
+        }
+        let albedo = match m.diffuse_texture.as_deref().and_then(|t| self.image(t)) {
+            Some(image) => Tex::image(image),
+            None => Tex::from(kd),
+        };
+        let base = Diffuse::new(albedo);
+        if let Some(image) = m.dissolve_texture.as_deref().and_then(|t| self.image(t)) {
+            return builder.material(Cutout::new(base, ScalarTex::image(image, 0)));
+        }
+        if dissolve < 1.0 {
+            return builder.material(Cutout::new(base, ScalarTex::constant(dissolve.clamp(0.0, 1.0))));
+        }
+        builder.material(base)
+    }
+
+    /// A texture by the name in the file, decoded once; `None` with a warning where it cannot be had.
+    fn image(&mut self, entry: &str) -> Option<ImageTexture> {
+        // Options such as `-s 1 1 1` come first; the name is what follows the last of them.
+        let name = texture_name(entry);
+        if let Some(known) = self.images.get(name) {
+            return known.clone();
+        }
+        let image = match self.decode(name) {
+            Ok(image) => Some(image),
+            Err(why) => {
+                self.warnings.push(format!("texture '{name}': {why}; its colour is used instead"));
+                None
+            }
+        };
+        self.images.insert(name.into(), image.clone());
+        image
+    }
+
+    fn decode(&mut self, name: &str) -> Result<ImageTexture, String> {
+        let bytes = self.resolver.read(name, self.limits.file_bytes).map_err(|e| e.to_string())?;
+        let left = self.limits.all_image_bytes.saturating_sub(self.image_bytes);
+        let mut limits = image::Limits::default();
+        limits.max_image_width = Some(self.limits.image_side);
+        limits.max_image_height = Some(self.limits.image_side);
+        limits.max_alloc = Some(self.limits.image_bytes.min(left));
+        let mut reader = image::ImageReader::new(std::io::Cursor::new(bytes))
+            .with_guessed_format()
+            .map_err(|e| e.to_string())?;
+        reader.limits(limits);
+        let rgba = reader.decode().map_err(|e| e.to_string())?.into_rgba8();
+        self.image_bytes += rgba.as_raw().len() as u64;
+        let (w, h) = rgba.dimensions();
+        ImageTexture::from_srgb8(w, h, 4, rgba.into_raw()).map_err(|e| e.to_string())
+    }
+}
+
+/// Radiance a material emits, if any.
+fn emissive(m: &tobj::Material) -> Option<Spectrum> {
+    let text = m.emissive.or_else(|| {
+        let v: Vec<f32> =
+            m.unknown_param.get("Ke")?.split_whitespace().filter_map(|w| w.parse().ok()).collect();
+        <[f32; 3]>::try_from(v).ok()
+    })?;
+    let ke = Spectrum::from(text.map(|c| if c.is_finite() && c > 0.0 { c } else { 0.0 }));
+    (!ke.is_black()).then_some(ke)
+}
+
+fn clamped(c: [f32; 3]) -> Spectrum {
+    Spectrum::from(c.map(|v| if v.is_finite() { v.clamp(0.0, 1.0) } else { 0.0 }))
+}
+
+/// The file name at the end of a texture entry, behind options and their numbers.
+fn texture_name(entry: &str) -> &str {
+    let mut rest = entry.trim();
+    while let Some(option) = rest.strip_prefix('-') {
+        let Some((_, mut tail)) = option.split_once(char::is_whitespace) else { return "" };
+        tail = tail.trim_start();
+        // Numbers and on/off belong to the option.
+        while let Some((word, after)) = tail.split_once(char::is_whitespace) {
+            if word.parse::<f32>().is_ok() || matches!(word, "on" | "off") || word.len() == 1 {
+                tail = after.trim_start();
+            } else {
+                break;
+            }
+        }
+        rest = tail;
+    }
+    rest
+}
+
+/// Kept here so that the two halves of a mesh's look stay together.
+pub(crate) fn add_geometry(
+    geometry: Geometry,
+    index: Option<usize>,
+    made: &mut Made<'_>,
+    builder: &mut SceneBuilder,
+) -> bool {
+    let material = made.material(index, builder);
+    let geom = builder.add(geometry, material);
+    made.emit(index, geom, builder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_behind_options() {
+        assert_eq!(texture_name("wood.png"), "wood.png");
+        assert_eq!(texture_name("-s 1 2 1 -clamp on my wood.png"), "my wood.png");
+        assert_eq!(texture_name("-bm 0.2 bump.png"), "bump.png");
+        assert_eq!(texture_name("-s"), "");
+    }
+
+    #[test]
+    fn colours_of_one_number_are_gray_and_bad_lines_are_named() {
+        let mut out = String::new();
+        assert!(push_safe("Kd 0.5", &mut out).is_ok());
+        assert_eq!(out, "Kd 0.5 0.5 0.5");
+        assert!(push_safe("Kd spectral a.rfl", &mut out).is_err());
+        assert!(push_safe("illum many", &mut out).is_err());
+        assert!(push_safe("Ns", &mut out).is_err());
+    }
+}

@@ -1,0 +1,109 @@
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+/// Why a file that a scene names is not read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResolveError {
+    /// The name is not a plain relative path.
+    #[error("'{0}' is not a path below the scene's folder; copy the file there and name it relatively")]
+    Outside(String),
+    /// The file is not there.
+    #[error("'{name}' cannot be opened: {source}")]
+    Open {
+        /// The name in the scene.
+        name: String,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// A device, a pipe, a folder.
+    #[error("'{0}' is not a regular file")]
+    NotAFile(String),
+    /// More than the limit.
+    #[error("'{name}' is larger than the limit of {limit} bytes")]
+    TooLarge {
+        /// The name in the scene.
+        name: String,
+        /// The limit.
+        limit: u64,
+    },
+}
+
+/// Finds the files that a scene names.
+pub trait Resolver {
+    /// The bytes of a file, at most `limit` of them.
+    ///
+    /// # Errors
+    /// [`ResolveError`], naming the file.
+    fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, ResolveError>;
+}
+
+/// Knows no files: for scenes that must stand alone.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoFiles;
+
+impl Resolver for NoFiles {
+    fn read(&self, name: &str, _limit: u64) -> Result<Vec<u8>, ResolveError> {
+        Err(ResolveError::Outside(name.into()))
+    }
+}
+
+/// Reads regular files below one folder, and nothing else: no absolute paths, no `..`, no links that lead out.
+#[derive(Clone, Debug)]
+pub struct FolderResolver {
+    root: PathBuf,
+}
+
+impl FolderResolver {
+    /// Reads below `root`.
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        Self { root: root.into() }
+    }
+
+    /// Reads beside a file.
+    pub fn beside(file: &Path) -> Self {
+        let parent = file.parent().filter(|p| !p.as_os_str().is_empty());
+        Self::new(parent.unwrap_or(Path::new(".")))
+    }
+}
+
+impl Resolver for FolderResolver {
+    fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, ResolveError> {
+        let outside = || ResolveError::Outside(name.into());
+        let open = |source| ResolveError::Open { name: name.into(), source };
+        // Exporters on Windows write backslashes.
+        let name_here = name.replace('\\', "/");
+        let relative = Path::new(&name_here);
+        let plain = relative.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
+        if !plain || name_here.contains(':') || name_here.contains('\0') || name_here.is_empty() {
+            return Err(outside());
+        }
+        let root = self.root.canonicalize().map_err(open)?;
+        let path = root.join(relative).canonicalize().map_err(open)?;
+        if !path.starts_with(&root) {
+            return Err(outside());
+        }
+        read_file(&path, name, limit)
+    }
+}
+
+/// The bytes of a regular file of at most `limit` bytes; never more is read or allocated than is there.
+pub(crate) fn read_file(path: &Path, name: &str, limit: u64) -> Result<Vec<u8>, ResolveError> {
+    let open = |source| ResolveError::Open { name: name.into(), source };
+    let meta = std::fs::metadata(path).map_err(open)?;
+    if !meta.is_file() {
+        return Err(ResolveError::NotAFile(name.into()));
+    }
+    if meta.len() > limit {
+        return Err(ResolveError::TooLarge { name: name.into(), limit });
+    }
+    let mut bytes = Vec::new();
+    // The file may grow while it is read; one byte beyond the limit tells.
+    std::fs::File::open(path)
+        .and_then(|f| f.take(limit.saturating_add(1)).read_to_end(&mut bytes))
+        .map_err(open)?;
+    if bytes.len() as u64 > limit {
+        return Err(ResolveError::TooLarge { name: name.into(), limit });
+    }
+    Ok(bytes)
+}

@@ -1,0 +1,116 @@
+use std::sync::Arc;
+
+use etendue_core::{Needs, Transform};
+use etendue_geometry::Geometry;
+use etendue_light::{Light, MeshLight, ParallelogramLight, ShapeLight, SphereLight};
+use etendue_texture::Texture;
+
+use crate::{Emission, SceneBuilder, SceneError, SceneReport};
+
+/// The lights of a scene and the way from a surface to its light.
+pub(crate) struct Emitters {
+    pub(crate) lights: Vec<Arc<dyn Light>>,
+    /// Indices of the lights that escaped rays meet.
+    pub(crate) infinite: Vec<u32>,
+    /// Light of geometry that stands in the world itself, by geometry id; empty when nothing emits.
+    direct: Vec<Option<u32>>,
+    /// (geometry, light) pairs per instance; empty when nothing instanced emits.
+    instanced: Vec<Vec<(u32, u32)>>,
+}
+
+impl Emitters {
+    /// The light that this surface is part of.
+    #[inline]
+    pub(crate) fn of(&self, inst: u32, geom: u32) -> Option<u32> {
+        if inst == etendue_geometry::Hit::NO_INSTANCE {
+            return self.direct.get(geom as usize).copied().flatten();
+        }
+        self.instanced.get(inst as usize)?.iter().find(|(g, _)| *g == geom).map(|(_, l)| *l)
+    }
+}
+
+/// Turns emitting surfaces into lights and drops lights that emit nothing.
+pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emitters, SceneError> {
+    let mut out =
+        Emitters { lights: Vec::new(), infinite: Vec::new(), direct: Vec::new(), instanced: Vec::new() };
+    for (geom, emission) in b.emission.iter().enumerate() {
+        let Some(e) = emission else { continue };
+        let (mean, max) = (e.radiance.mean(), e.radiance.max());
+        let sound = |v: f32| v >= 0.0 && v.is_finite();
+        if !(mean.to_array().into_iter().all(sound) && max.to_array().into_iter().all(sound)) {
+            return Err(SceneError::BadEmission { geom: geom as u32 });
+        }
+        let material = &b.materials[b.geom_materials[geom] as usize];
+        if material.needs().contains(Needs::CUTOUTS) {
+            let why = "its material has an opacity; split the emitting part from the cut-out part";
+            return Err(SceneError::CannotEmit { geom: geom as u32, why });
+        }
+    }
+    let mut keep = |light: Arc<dyn Light>| -> Option<u32> {
+        // The radius only scales; any positive one tells zero from nonzero.
+        if (0..light.parts()).all(|p| light.power(p, 1.0).is_black()) {
+            report.zero_power_lights += 1;
+            return None;
+        }
+        if light.is_infinite() {
+            out.infinite.push(out.lights.len() as u32);
+        }
+        out.lights.push(light);
+        Some(out.lights.len() as u32 - 1)
+    };
+    for light in &b.lights {
+        keep(light.clone());
+    }
+    if b.emission.iter().any(Option::is_some) {
+        out.direct = vec![None; b.geometries.len()];
+        for &geom in &b.direct {
+            if let Some(e) = &b.emission[geom as usize] {
+                out.direct[geom as usize] = keep(light_of(&b.geometries[geom as usize], geom, None, e)?);
+            }
+        }
+        if b.instances.iter().any(|i| i.geoms.iter().any(|&g| b.emission[g as usize].is_some())) {
+            for instance in &b.instances {
+                let mut pairs = Vec::new();
+                for &geom in instance.geoms.iter() {
+                    if let Some(e) = &b.emission[geom as usize] {
+                        let geometry = &b.geometries[geom as usize];
+                        let light = light_of(geometry, geom, Some(&instance.to_world), e)?;
+                        pairs.extend(keep(light).map(|l| (geom, l)));
+                    }
+                }
+                out.instanced.push(pairs);
+            }
+        }
+    }
+    report.lights = out.lights.len() as u64;
+    report.light_parts = out.lights.iter().map(|l| u64::from(l.parts())).sum();
+    report.memory.lights = out.lights.iter().map(|l| l.bytes()).sum();
+    Ok(out)
+}
+
+fn light_of(
+    geometry: &Geometry,
+    geom: u32,
+    to_world: Option<&Transform>,
+    e: &Emission,
+) -> Result<Arc<dyn Light>, SceneError> {
+    let cannot = |why| SceneError::CannotEmit { geom, why };
+    let placed = "it is placed through a transform; only meshes can emit there: use a mesh, or add it to the world";
+    Ok(match geometry {
+        Geometry::Mesh(mesh) => {
+            Arc::new(MeshLight::new(mesh.clone(), to_world.copied(), e.radiance.clone(), e.two_sided))
+        }
+        _ if to_world.is_some() => return Err(cannot(placed)),
+        Geometry::Sphere(s) => Arc::new(SphereLight::new(*s, e.radiance.clone(), e.two_sided)),
+        Geometry::Parallelogram(p) => {
+            Arc::new(ParallelogramLight::new(*p, e.radiance.clone(), e.two_sided))
+        }
+        Geometry::Plane(_) => return Err(cannot("an infinite plane has no finite power")),
+        Geometry::Open(shape) => {
+            if shape.area() <= 0.0 {
+                return Err(cannot("the shape gives no area, so no point on it can be drawn"));
+            }
+            Arc::new(ShapeLight::new(shape.clone(), e.radiance.clone(), e.two_sided))
+        }
+    })
+}

@@ -1,0 +1,199 @@
+use std::sync::Arc;
+
+use etendue_bvh::{Accel, World};
+use etendue_core::{Aabb, Fingerprint, Needs, Ray, Segment, Spectrum, Vec2, Vec3A};
+use etendue_geometry::{Hit, Surface};
+use etendue_light::{Light, LightId, LightPicker, LightSample, LitPoint};
+use etendue_material::Material;
+
+use crate::SceneReport;
+use crate::cutout::CutoutFilter;
+use crate::emitters::Emitters;
+
+pub(crate) struct Parts {
+    pub(crate) world: World,
+    pub(crate) accel: Box<dyn Accel>,
+    pub(crate) picker: Option<Box<dyn LightPicker>>,
+    pub(crate) materials: Vec<Arc<dyn Material>>,
+    pub(crate) geom_materials: Vec<u32>,
+    pub(crate) emitters: Emitters,
+    pub(crate) report: SceneReport,
+    pub(crate) radius: f32,
+}
+
+/// A light sample of the whole scene: which light, and the density with its choice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightDraw {
+    /// The part picked.
+    pub id: LightId,
+    /// The sample; its `pdf` is the light's own times the probability of the pick.
+    pub sample: LightSample,
+}
+
+/// An immutable scene, shared by any number of threads and renders.
+pub struct Scene {
+    parts: Parts,
+}
+
+impl Scene {
+    pub(crate) fn assemble(parts: Parts) -> Self {
+        Self { parts }
+    }
+
+    /// The census.
+    pub fn needs(&self) -> Needs {
+        self.parts.report.needs
+    }
+
+    /// What building found, dropped and built.
+    pub fn report(&self) -> &SceneReport {
+        &self.parts.report
+    }
+
+    /// A box around everything bounded.
+    pub fn bounds(&self) -> Aabb {
+        self.parts.accel.bounds()
+    }
+
+    /// Radius of the sphere around the bounds, metres.
+    pub fn radius(&self) -> f32 {
+        self.parts.radius
+    }
+
+    /// The ray queries.
+    pub fn accel(&self) -> &dyn Accel {
+        &*self.parts.accel
+    }
+
+    /// Geometry and placements.
+    pub fn world(&self) -> &World {
+        &self.parts.world
+    }
+
+    /// Lights, in the order that [`LightId::light`] counts.
+    pub fn lights(&self) -> &[Arc<dyn Light>] {
+        &self.parts.emitters.lights
+    }
+
+    fn cutout_filter(&self, bits: u32) -> Option<CutoutFilter<'_>> {
+        self.needs().contains(Needs::CUTOUTS).then(|| CutoutFilter {
+            world: &self.parts.world,
+            materials: &self.parts.materials,
+            geom_materials: &self.parts.geom_materials,
+            bits,
+        })
+    }
+
+    /// The closest hit. `cutout_bits` are random bits that decide about partly opaque surfaces; unused without
+    /// cut-outs.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray, cutout_bits: u32) -> Option<Hit> {
+        match self.cutout_filter(cutout_bits) {
+            None => self.parts.accel.intersect(ray),
+            Some(filter) => self.parts.accel.intersect_filtered(ray, 0, &filter),
+        }
+    }
+
+    /// Everything about the point that a ray hit, world space. `footprint` is the radius of the ray's cone there.
+    #[inline]
+    pub fn surface(&self, ray: &Ray, hit: &Hit, footprint: f32) -> Surface {
+        let mut s = self.parts.world.surface(ray, hit);
+        s.footprint = footprint;
+        s.time = ray.time;
+        s
+    }
+
+    /// The fraction of light that gets from one end to the other: 0 or 1 until there are media. `cutout_bits` as in
+    /// [`Scene::intersect`].
+    #[inline]
+    pub fn transmittance(&self, segment: &Segment, cutout_bits: u32) -> Spectrum {
+        let Some(ray) = segment.ray() else { return Spectrum::BLACK };
+        let blocked = match self.cutout_filter(cutout_bits) {
+            None => self.parts.accel.occluded(&ray),
+            Some(filter) => self.parts.accel.occluded_filtered(&ray, 0, &filter),
+        };
+        if blocked { Spectrum::BLACK } else { Spectrum::ONE }
+    }
+
+    /// The material of a surface of this scene; `None` for a surface of another.
+    #[inline]
+    pub fn material(&self, surface: &Surface) -> Option<&dyn Material> {
+        let m = *self.parts.geom_materials.get(surface.geom as usize)?;
+        self.parts.materials.get(m as usize).map(|m| &**m)
+    }
+
+    /// The light that a surface is part of.
+    #[inline]
+    pub fn light_at(&self, surface: &Surface) -> Option<LightId> {
+        let light = self.parts.emitters.of(surface.inst, surface.geom)?;
+        Some(LightId { light, part: surface.prim })
+    }
+
+    /// Radiance that a light's surface sends along `wo`, W·m⁻²·sr⁻¹.
+    #[inline]
+    pub fn emitted(&self, id: LightId, surface: &Surface, wo: Vec3A) -> Spectrum {
+        self.parts.emitters.lights.get(id.light as usize).map_or(Spectrum::BLACK, |l| l.emitted(id.part, surface, wo))
+    }
+
+    /// The lights that escaped rays meet.
+    #[inline]
+    pub fn infinite_lights(&self) -> impl Iterator<Item = (LightId, &dyn Light)> {
+        self.parts
+            .emitters
+            .infinite
+            .iter()
+            .map(|&light| (LightId { light, part: 0 }, &*self.parts.emitters.lights[light as usize]))
+    }
+
+    /// Picks a light and draws a direction toward it; the first number of `u` picks and is stretched again.
+    #[inline]
+    pub fn sample_light(&self, at: &LitPoint, u: Vec2) -> Option<LightDraw> {
+        let pick = self.parts.picker.as_ref()?.pick(at, u.x)?;
+        let light = self.parts.emitters.lights.get(pick.id.light as usize)?;
+        let mut sample = light.sample(at, pick.id.part, Vec2::new(pick.u, u.y))?;
+        sample.pdf *= pick.pmf;
+        (sample.pdf > 0.0 && !sample.li.is_black()).then_some(LightDraw { id: pick.id, sample })
+    }
+
+    /// The density with which [`Scene::sample_light`] draws `wi` toward this light, sr⁻¹. `seen` is the point of the
+    /// light that was hit, `None` at infinity.
+    #[inline]
+    pub fn light_pdf(&self, at: &LitPoint, id: LightId, wi: Vec3A, seen: Option<&Surface>) -> f32 {
+        let (Some(picker), Some(light)) =
+            (&self.parts.picker, self.parts.emitters.lights.get(id.light as usize))
+        else {
+            return 0.0;
+        };
+        picker.pmf(at, id) * light.pdf(at, id.part, wi, seen)
+    }
+
+    /// A digest of all that decides an image; see [`Fingerprint::is_opaque`] for what a user's parts may hide.
+    pub fn fingerprint(&self) -> Fingerprint {
+        let mut f = Fingerprint::default();
+        let p = &self.parts;
+        f.u64(p.world.geometries.len() as u64);
+        for (g, &m) in p.world.geometries.iter().zip(&p.geom_materials) {
+            g.fingerprint(&mut f);
+            f.u64(u64::from(m));
+        }
+        for &d in &p.world.direct {
+            f.u64(u64::from(d));
+        }
+        for i in &p.world.instances {
+            i.to_world.fingerprint(&mut f);
+            for &g in i.geoms.iter() {
+                f.u64(u64::from(g));
+            }
+        }
+        for m in &p.materials {
+            m.fingerprint(&mut f);
+        }
+        for l in &p.emitters.lights {
+            l.fingerprint(&mut f);
+        }
+        if let Some(picker) = &p.picker {
+            picker.fingerprint(&mut f);
+        }
+        f
+    }
+}
