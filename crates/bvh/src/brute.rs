@@ -52,9 +52,7 @@ impl BruteForce {
                     ray.accepts(at.t)
                         && sink.offer(&Hit { t: at.t, uv: at.uv, inst, geom, prim }) == Answer::Done
                 }),
-                other => {
-                    other.shape().is_some_and(|shape| offer_shape(shape, ray, inst, geom, sink))
-                }
+                other => other.shape().is_some_and(|shape| offer_shape(shape, ray, inst, geom, sink)),
             }
         })
     }

@@ -16,7 +16,9 @@ pub enum BuildError {
         count: usize,
     },
     /// More of something than 32-bit numbers can name.
-    #[error("{count} {what} are more than one hierarchy can hold ({limit}); split the scene or use instances")]
+    #[error(
+        "{count} {what} are more than one hierarchy can hold ({limit}); split the scene or use instances"
+    )]
     TooMany {
         /// What there are too many of.
         what: &'static str,

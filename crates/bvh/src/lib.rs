@@ -1,7 +1,11 @@
 //! Ray queries.
 mod accel;
 mod brute;
+mod build;
 mod error;
+mod group;
+mod instances;
+mod kernel;
 mod shape_hits;
 mod sink;
 mod tree_accel;

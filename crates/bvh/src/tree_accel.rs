@@ -1,7 +1,10 @@
 use etendue_core::{Aabb, Ray};
 use etendue_geometry::Hit;
 
-use crate::{Accel, BruteForce, BuildError, HitFilter, World};
+use crate::group::{BuildContext, Group, GroupQuery};
+use crate::instances::Instances;
+use crate::sink::{Any, Closest, Filtered, Sink};
+use crate::{Accel, BuildError, HitFilter, World};
 
 /// How much time a build may spend on a faster hierarchy. Hits do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,7 +54,12 @@ pub struct BuildReport {
 
 /// Hierarchies over triangles, shapes and instances: the general [`Accel`].
 pub struct TreeAccel {
-    inner: BruteForce,
+    direct: Group,
+    /// Absent where there are no instances.
+    instances: Option<Instances>,
+    /// Empty where every geometry is seen by every ray.
+    masks: Vec<u32>,
+    bounds: Aabb,
     report: BuildReport,
 }
 
@@ -59,39 +67,74 @@ impl TreeAccel {
     /// Builds the hierarchies. `cancel` is asked now and then, from any thread; once it says true the build ends.
     ///
     /// # Errors
-    /// As [`World::check`]; [`BuildError::Cancelled`].
+    /// As [`World::check`]; [`BuildError::TooMany`]; [`BuildError::Cancelled`].
     pub fn build(
         world: &World,
         options: &BuildOptions,
         cancel: &(dyn Fn() -> bool + Sync),
     ) -> Result<Self, BuildError> {
-        let _ = options;
-        if cancel() {
-            return Err(BuildError::Cancelled);
-        }
-        Ok(Self { inner: BruteForce::build(world)?, report: BuildReport::default() })
+        world.check()?;
+        let mut cx = BuildContext { options, cancel, report: BuildReport::default() };
+        let direct = Group::build(world, &world.direct, &mut cx)?;
+        let instances =
+            if world.instances.is_empty() { None } else { Some(Instances::build(world, &mut cx)?) };
+        let masks = if world.masks.iter().all(|&m| m == u32::MAX) { Vec::new() } else { world.masks.clone() };
+        let mut report = cx.report;
+        report.bytes += size_of_val(masks.as_slice());
+        let bounds = instances.as_ref().map_or(Aabb::EMPTY, Instances::bounds).union(direct.bounds());
+        Ok(Self { direct, instances, masks, bounds, report })
     }
 
     /// What became of the geometry.
     pub fn report(&self) -> BuildReport {
         self.report
     }
+
+    #[inline]
+    fn query(&self, ray: &Ray, sink: &mut impl Sink) {
+        if !ray.is_valid() {
+            return;
+        }
+        let q = GroupQuery { ray, inst: Hit::NO_INSTANCE, masks: &self.masks };
+        if self.direct.query(&q, sink) {
+            return;
+        }
+        if let Some(instances) = &self.instances {
+            instances.query(ray, &self.masks, sink);
+        }
+    }
 }
 
 impl Accel for TreeAccel {
     fn bounds(&self) -> Aabb {
-        self.inner.bounds()
+        self.bounds
     }
+
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.inner.intersect(ray)
+        let mut sink = Closest::new(ray);
+        self.query(ray, &mut sink);
+        sink.best
     }
+
     fn occluded(&self, ray: &Ray) -> bool {
-        self.inner.occluded(ray)
+        let mut sink = Any::new(ray);
+        self.query(ray, &mut sink);
+        sink.found
     }
+
     fn intersect_filtered(&self, ray: &Ray, ray_index: u32, filter: &dyn HitFilter) -> Option<Hit> {
-        self.inner.intersect_filtered(ray, ray_index, filter)
+        let mut sink = Filtered::new(Closest::new(ray), ray, ray_index, filter);
+        self.query(ray, &mut sink);
+        sink.inner.best
     }
+
+    fn occluded_filtered(&self, ray: &Ray, ray_index: u32, filter: &dyn HitFilter) -> bool {
+        let mut sink = Filtered::new(Any::new(ray), ray, ray_index, filter);
+        self.query(ray, &mut sink);
+        sink.inner.found
+    }
+
     fn bytes(&self) -> usize {
-        self.inner.bytes()
+        self.report.bytes
     }
 }

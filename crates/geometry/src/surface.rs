@@ -27,8 +27,7 @@ impl Hit {
     #[inline]
     pub fn precedes(&self, other: &Hit) -> bool {
         self.t < other.t
-            || (self.t == other.t
-                && (self.inst, self.geom, self.prim) < (other.inst, other.geom, other.prim))
+            || (self.t == other.t && (self.inst, self.geom, self.prim) < (other.inst, other.geom, other.prim))
     }
 }
 

@@ -1,4 +1,5 @@
 use std::cell::Cell;
+use std::sync::Arc;
 
 use etendue_bsdf::BsdfAt;
 use etendue_core::{Fingerprint, Needs, Vec2, Vec3A, Vec4};
@@ -56,5 +57,36 @@ pub trait Material: Send + Sync {
     /// Bytes held by textures, for the memory report.
     fn bytes(&self) -> usize {
         0
+    }
+}
+
+impl<M: Material + ?Sized> Material for Arc<M> {
+    #[inline]
+    fn bsdf<'a>(&'a self, at: &Surface) -> BsdfAt<'a> {
+        (**self).bsdf(at)
+    }
+
+    fn opacity(&self, at: &AlphaPoint<'_>) -> f32 {
+        (**self).opacity(at)
+    }
+
+    fn interior(&self) -> Option<MediumId> {
+        (**self).interior()
+    }
+
+    fn is_delta(&self) -> bool {
+        (**self).is_delta()
+    }
+
+    fn needs(&self) -> Needs {
+        (**self).needs()
+    }
+
+    fn fingerprint(&self, f: &mut Fingerprint) {
+        (**self).fingerprint(f);
+    }
+
+    fn bytes(&self) -> usize {
+        (**self).bytes()
     }
 }

@@ -49,7 +49,13 @@ impl Dim {
                 _ => {}
             }
         }
-        Self(Self::FIRST + depth * Self::STRIDE + slot as u32)
+        Self(depth.wrapping_mul(Self::STRIDE).wrapping_add(Self::FIRST + slot as u32))
+    }
+
+    /// The dimension after this one: the second of a pair.
+    #[inline]
+    pub const fn next(self) -> Self {
+        Self(self.0.wrapping_add(1))
     }
 
     /// The plain index.

@@ -1,8 +1,20 @@
 //! Sampling (skeleton).
 mod dim;
+mod hash;
+mod independent;
 pub mod mis;
+mod permutation;
 pub mod remap;
+mod rng;
 mod sampler;
+mod sobol;
+mod stratified;
+mod stream;
 pub mod warp;
 pub use dim::{Dim, Slot};
+pub use hash::{mix, mix2};
+pub use independent::Independent;
+pub use rng::pcg32;
 pub use sampler::{BounceDraws, Sampler, unit_f32};
+pub use sobol::Sobol;
+pub use stratified::Stratified;

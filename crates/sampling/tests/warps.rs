@@ -161,7 +161,8 @@ fn spherical_triangle_is_uniform_in_solid_angle() {
         assert!((t.solid_angle() / omega - 1.0).abs() < 1e-9);
         // A point inside splits it in three; each part must get its share.
         let inside = (da * 0.3 + db * 0.5 + dc * 0.2) * 1.0;
-        let shares = [(da, db), (db, dc), (dc, da)].map(|(p, q)| triangle_solid_angle(p, q, inside).0 / omega);
+        let shares =
+            [(da, db), (db, dc), (dc, da)].map(|(p, q)| triangle_solid_angle(p, q, inside).0 / omega);
         let n = 20_000;
         let mut hits = [0; 3];
         for _ in 0..n {

@@ -243,7 +243,7 @@ impl SceneBuilder {
         };
         let accel = match self.accel.take() {
             Some(make) => make(&world)?,
-            None => Box::new(TreeAccel::build(&world, &BuildOptions::default(), progress)?),
+            None => Box::new(TreeAccel::build(&world, &BuildOptions::default(), &|| progress.cancelled())?),
         };
         let radius = accel.bounds().radius();
         let picker = match self.picker.take() {

@@ -42,7 +42,7 @@ pub(crate) fn take(
                 report.degenerate_triangles += r.degenerate as u64;
                 report.non_finite_triangles += r.non_finite as u64;
                 report.triangles += (mesh.triangle_count() - r.degenerate - r.non_finite) as u64;
-                if mesh.normals().is_some() {
+                if !mesh.normals().is_empty() {
                     needs |= Needs::SHADING_NORMALS;
                 }
             }

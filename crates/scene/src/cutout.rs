@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use etendue_bvh::{HitFilter, World};
 use etendue_core::{Needs, Ray};
-use etendue_geometry::{Geometry, Hit};
+use etendue_geometry::Hit;
 use etendue_material::{AlphaPoint, Material};
 
 /// Lets a hit count with the probability of its opacity.
@@ -28,21 +28,8 @@ impl HitFilter for CutoutFilter<'_> {
             return true;
         };
         let fetches = Cell::new(0);
-        let opacity = match self.world.geometries.get(hit.geom as usize) {
-            Some(Geometry::Mesh(mesh)) => {
-                let a = mesh.alpha_attributes(hit.prim, hit.uv);
-                let p = match self.world.instances.get(hit.inst as usize) {
-                    Some(i) => i.to_world.point(a.p),
-                    None => a.p,
-                };
-                material.opacity(&AlphaPoint { uv: a.uv, p, color: a.color, fetches: &fetches })
-            }
-            Some(_) => {
-                let s = self.world.surface(ray, hit);
-                material.opacity(&AlphaPoint { uv: s.uv, p: s.p, color: s.color, fetches: &fetches })
-            }
-            None => 1.0,
-        };
+        let a = self.world.alpha_attributes(ray, hit);
+        let opacity = material.opacity(&AlphaPoint { uv: a.uv, p: a.p, color: a.color, fetches: &fetches });
         uniform(self.bits, hit) < opacity
     }
 }

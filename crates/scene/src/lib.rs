@@ -27,6 +27,7 @@ mod census;
 mod cutout;
 mod emitters;
 mod error;
+pub mod presets;
 mod report;
 mod scene;
 

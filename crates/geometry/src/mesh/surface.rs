@@ -77,9 +77,8 @@ impl TriangleMesh {
 
     /// `None` where there are no texture coordinates or they span no area.
     fn derivatives(&self, prim: u32) -> Option<Derivatives> {
-        let [ta, tb, tc] = self
-            .corners_of(&self.uv[0], prim)?
-            .map(|t| DVec2::new(f64::from(t.x), f64::from(t.y)));
+        let [ta, tb, tc] =
+            self.corners_of(&self.uv[0], prim)?.map(|t| DVec2::new(f64::from(t.x), f64::from(t.y)));
         let [a, b, c] = self.triangle(prim).map(wide);
         let (e1, e2) = (b - a, c - a);
         let (t1, t2) = (tb - ta, tc - ta);

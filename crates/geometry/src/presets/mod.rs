@@ -14,7 +14,12 @@ use etendue_core::{Aabb, Vec2, Vec3, Vec3A};
 use crate::TriangleMesh;
 
 /// A mesh from arrays that are right by construction; should they not be, the mesh is empty rather than wrong.
-fn assembled(positions: Vec<Vec3>, indices: Vec<[u32; 3]>, normals: Vec<Vec3>, uv: Vec<Vec2>) -> TriangleMesh {
+fn assembled(
+    positions: Vec<Vec3>,
+    indices: Vec<[u32; 3]>,
+    normals: Vec<Vec3>,
+    uv: Vec<Vec2>,
+) -> TriangleMesh {
     TriangleMesh::new(positions, indices)
         .and_then(|m| if normals.is_empty() { Ok(m) } else { m.with_normals(normals) })
         .and_then(|m| if uv.is_empty() { Ok(m) } else { m.with_uv(0, uv) })

@@ -65,10 +65,7 @@ impl Shape for Sphere {
     fn bounds(&self) -> Aabb {
         let r = Vec3A::splat(self.radius);
         let outward = |v: Vec3A, f: fn(f32) -> f32| Vec3A::new(f(v.x), f(v.y), f(v.z));
-        Aabb {
-            lo: outward(self.center - r, f32::next_down),
-            hi: outward(self.center + r, f32::next_up),
-        }
+        Aabb { lo: outward(self.center - r, f32::next_down), hi: outward(self.center + r, f32::next_up) }
     }
 
     /// The discriminant comes from the distance of the centre to the ray and the roots from the sum without

@@ -1,0 +1,142 @@
+//! Materials say what they need, stay in range, and tell themselves apart.
+
+use std::cell::Cell;
+use std::sync::Arc;
+
+use etendue_bsdf::{Bsdf, BsdfAt, BsdfSample, Lobes, Mode};
+use etendue_core::{Fingerprint, Needs, Spectrum, Vec2, Vec3A, Vec4};
+use etendue_geometry::Surface;
+use etendue_material::{
+    Absorber, AlphaPoint, Cutout, Diffuse, Glass, Material, Metal, MirrorMaterial, RoughGlass,
+};
+use etendue_texture::{Channel, Encoding, ImageTexture, ImageUse, ScalarTex, Tex};
+
+fn surface() -> Surface {
+    let mut at = Surface::new(Vec3A::ZERO, Vec3A::ZERO, Vec3A::Y);
+    at.uv = [Vec2::new(0.25, 0.5), Vec2::ZERO];
+    at.color = Vec4::new(0.5, 1.0, 2.0, 0.25);
+    at
+}
+
+/// Two texels, alpha 0 and 1.
+fn image() -> ImageUse {
+    let data = vec![255, 0, 0, 0, 0, 255, 0, 255];
+    ImageUse::new(Arc::new(ImageTexture::from_u8(2, 1, 4, data, Encoding::Linear).expect("sizes agree")))
+}
+
+fn textured() -> ScalarTex {
+    ScalarTex::image(image(), Channel::A)
+}
+
+#[test]
+fn needs_say_what_is_used() {
+    let white = Spectrum::ONE;
+    let across = Metal { roughness_across: Some(0.1.into()), ..Metal::gold(0.3) };
+    let tinted = Diffuse { vertex_color: true, ..Diffuse::new(white) };
+    let cases: Vec<(Box<dyn Material>, Needs)> = vec![
+        (Box::new(Diffuse::new(white)), Needs::empty()),
+        (Box::new(Diffuse::new(Tex::from(image()))), Needs::TEXTURES),
+        (Box::new(tinted), Needs::VERTEX_COLORS),
+        (Box::new(Absorber), Needs::empty()),
+        (Box::new(MirrorMaterial::new(white)), Needs::DELTA),
+        (Box::new(Glass::new(1.5)), Needs::DELTA | Needs::TRANSMISSION),
+        (Box::new(RoughGlass::new(1.5, 0.4)), Needs::TRANSMISSION),
+        (Box::new(RoughGlass::new(1.5, 0.001)), Needs::TRANSMISSION | Needs::DELTA),
+        (Box::new(Metal::silver(0.2)), Needs::empty()),
+        (Box::new(Metal::silver(0.0)), Needs::DELTA),
+        (Box::new(Metal::silver(textured())), Needs::TEXTURES | Needs::DELTA),
+        (Box::new(across), Needs::TANGENTS),
+        (Box::new(Metal::schlick(Tex::from(image()), 0.2)), Needs::TEXTURES),
+        (Box::new(Cutout::new(Diffuse::new(white), 0.5)), Needs::CUTOUTS),
+        (Box::new(Cutout::new(Diffuse::new(white), 1.0)), Needs::empty()),
+        (Box::new(Cutout::new(Diffuse::new(white), 0.7).with_threshold(0.5)), Needs::empty()),
+        (Box::new(Cutout::new(Glass::new(1.3), textured())), {
+            Needs::CUTOUTS | Needs::TEXTURES | Needs::DELTA | Needs::TRANSMISSION
+        }),
+    ];
+    let mut seen = std::collections::BTreeSet::new();
+    for (i, (material, needs)) in cases.iter().enumerate() {
+        assert_eq!(material.needs(), *needs, "case {i}");
+        let lobes = material.bsdf(&surface()).lobes();
+        if lobes.contains(Lobes::DELTA) {
+            assert!(needs.contains(Needs::DELTA), "case {i}");
+        }
+        if material.is_delta() {
+            assert!(lobes.contains(Lobes::DELTA), "case {i}");
+        }
+        assert_eq!(lobes.contains(Lobes::TRANSMISSION), needs.contains(Needs::TRANSMISSION), "case {i}");
+        let mut f = Fingerprint::default();
+        material.fingerprint(&mut f);
+        assert!(!f.is_opaque() && seen.insert(f.value()), "case {i} has another's fingerprint");
+    }
+}
+
+#[test]
+fn reflectances_are_clamped() {
+    let at = surface();
+    for (value, expected) in [(3.0, 1.0), (-1.0, 0.0), (f32::NAN, 0.0), (0.25, 0.25)] {
+        let BsdfAt::Lambert(b) = Diffuse::new(Tex::gray(value)).bsdf(&at) else { panic!("not Lambert") };
+        assert_eq!(b.albedo, Spectrum::gray(expected));
+        let metal = Metal::schlick(Tex::gray(value), 0.0);
+        assert_eq!(metal.bsdf(&at).albedo(Vec3A::Z), Spectrum::gray(expected));
+    }
+    let tinted = Diffuse { vertex_color: true, ..Diffuse::new(Tex::gray(0.8)) };
+    let BsdfAt::Lambert(b) = tinted.bsdf(&at) else { panic!("not Lambert") };
+    assert_eq!(b.albedo, Spectrum::rgb(0.4, 0.8, 1.0));
+}
+
+#[test]
+fn holes_are_where_alpha_is_low() {
+    let fetches = Cell::new(0);
+    let at = |u: f32, w: f32| AlphaPoint {
+        uv: [Vec2::new(u, 0.5), Vec2::ZERO],
+        p: Vec3A::ZERO,
+        color: Vec4::new(1.0, 1.0, 1.0, w),
+        fetches: &fetches,
+    };
+    let soft = Cutout::new(Diffuse::new(Tex::gray(0.5)), textured());
+    assert_eq!([0.25, 0.5, 0.75].map(|u| soft.opacity(&at(u, 0.5))), [0.0, 0.5, 1.0]);
+    assert_eq!(fetches.get(), 3);
+    let sharp = soft.clone().with_threshold(0.5);
+    assert_eq!([0.25, 0.49, 0.5, 0.75].map(|u| sharp.opacity(&at(u, 0.5))), [0.0, 0.0, 1.0, 1.0]);
+    let veiled = Cutout { vertex_alpha: true, ..soft.clone() };
+    assert_eq!(veiled.opacity(&at(0.75, 0.5)), 0.5);
+    assert!(veiled.needs().contains(Needs::VERTEX_COLORS | Needs::CUTOUTS));
+    let shared: Arc<dyn Material> = Arc::new(soft);
+    let twice = Cutout::new(shared, 0.5);
+    assert_eq!(twice.opacity(&at(0.75, 1.0)), 0.5, "holes in holes multiply");
+}
+
+/// A user's material enters by the same trait, its BSDF made for the point.
+#[test]
+fn a_users_own_enters_by_the_same_door() {
+    struct Nothing;
+    impl Bsdf for Nothing {
+        fn lobes(&self) -> Lobes {
+            Lobes::empty()
+        }
+        fn eval(&self, _: Vec3A, _: Vec3A, _: Mode) -> Spectrum {
+            Spectrum::BLACK
+        }
+        fn pdf(&self, _: Vec3A, _: Vec3A, _: Mode) -> f32 {
+            0.0
+        }
+        fn sample(&self, _: Vec3A, _: f32, _: Vec2, _: Mode) -> Option<BsdfSample> {
+            None
+        }
+        fn at(&self) -> BsdfAt<'_> {
+            BsdfAt::Ref(self)
+        }
+    }
+    struct Own;
+    impl Material for Own {
+        fn bsdf<'a>(&'a self, _: &Surface) -> BsdfAt<'a> {
+            BsdfAt::Open(Box::new(Nothing))
+        }
+    }
+    let own: Arc<dyn Material> = Arc::new(Own);
+    assert_eq!(own.bsdf(&surface()).albedo(Vec3A::Z), Spectrum::BLACK);
+    let mut f = Fingerprint::default();
+    own.fingerprint(&mut f);
+    assert!(f.is_opaque(), "equality with an undescribed part is not proof");
+}

@@ -1,0 +1,78 @@
+//! Scenes built in code, for examples, tests and benchmarks. Each comes with the view it was made for.
+
+use etendue_core::{Spectrum, Transform, Vec3A};
+use etendue_geometry::{Parallelogram, Sphere, presets as meshes};
+use etendue_material::{Diffuse, Glass, Metal};
+
+use crate::{Emission, SceneBuilder};
+
+/// A scene under construction and where to look at it from. Positions in metres.
+pub struct Preset {
+    /// The scene; more can be added before it is built.
+    pub builder: SceneBuilder,
+    /// Where the camera stands.
+    pub eye: Vec3A,
+    /// What it looks at.
+    pub target: Vec3A,
+    /// Vertical field of view, degrees.
+    pub vertical_fov_deg: f32,
+}
+
+/// Radiance of the box's lamp, W·m⁻²·sr⁻¹.
+const LAMP: Spectrum = Spectrum::rgb(17.0, 12.0, 6.5);
+
+/// The walls of a box one metre wide with a lamp in its ceiling, open toward the camera (after Goral et al. 1984).
+pub fn empty_cornell_box() -> Preset {
+    let mut b = SceneBuilder::new();
+    let white = b.material(Diffuse::new(Spectrum::rgb(0.73, 0.73, 0.73)));
+    let red = b.material(Diffuse::new(Spectrum::rgb(0.63, 0.06, 0.05)));
+    let green = b.material(Diffuse::new(Spectrum::rgb(0.14, 0.45, 0.09)));
+    let lamp = b.material(Diffuse::new(Spectrum::gray(0.78)));
+    let (x, y, z) = (Vec3A::X, Vec3A::Y, Vec3A::Z);
+    let corner = Vec3A::new(-0.5, 0.0, -0.5);
+    let mut wall = |o: Vec3A, u: Vec3A, v: Vec3A, m| {
+        // The edges are constants with an area.
+        if let Ok(p) = Parallelogram::new(o, u, v) {
+            return Some(b.add(p, m));
+        }
+        None
+    };
+    wall(corner, z, x, white);
+    wall(corner + y, x, z, white);
+    wall(corner, x, y, white);
+    wall(corner, y, z, red);
+    wall(corner + x, z, y, green);
+    let opening = wall(Vec3A::new(-0.13, 0.999, -0.11), x * 0.26, z * 0.22, lamp);
+    if let Some(opening) = opening {
+        b.emit(opening, Emission::new(LAMP));
+    }
+    Preset {
+        builder: b,
+        eye: Vec3A::new(0.0, 0.5, 1.9),
+        target: Vec3A::new(0.0, 0.5, 0.0),
+        vertical_fov_deg: 40.0,
+    }
+}
+
+/// The built-in scene: the box with a glass sphere, a rough gold sphere and a ring of triangles.
+pub fn cornell_box() -> Preset {
+    let mut p = empty_cornell_box();
+    let b = &mut p.builder;
+    let glass = b.material(Glass::new(1.5));
+    let gold = b.material(Metal::gold(0.3));
+    let blue = b.material(Diffuse::new(Spectrum::rgb(0.2, 0.3, 0.65)));
+    let spheres = [(Vec3A::new(-0.24, 0.17, 0.18), 0.17, glass), (Vec3A::new(0.22, 0.2, -0.2), 0.2, gold)];
+    for (center, radius, material) in spheres {
+        if let Ok(s) = Sphere::new(center, radius) {
+            b.add(s, material);
+        }
+    }
+    let ring = b.add_grouped(meshes::torus(0.13, 0.05, 48, 24), blue);
+    let ring = b.group(&[ring]);
+    let tilt = Transform::translation(Vec3A::new(0.22, 0.14, 0.24))
+        .after(&Transform::rotation(Vec3A::new(1.0, 0.0, -0.4), 1.1));
+    if let Ok(placed) = tilt {
+        b.instance(ring, placed);
+    }
+    p
+}
