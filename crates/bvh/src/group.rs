@@ -189,7 +189,7 @@ impl Group {
             }
         }
 
-        let blocks = Costs { item: 1.0, per_item: BLOCK, most: 2 * BLOCK };
+        let blocks = Costs { item: 0.6, per_item: BLOCK, most: 2 * BLOCK };
         let single = Costs { item: 2.0, per_item: 1, most: 4 };
         group.triangles =
             triangles.part(
@@ -348,9 +348,11 @@ impl<S: Sink> Visitor for TriangleVisitor<'_, S> {
     fn leaf(&mut self, first: u32, count: u32) -> bool {
         let range = first as usize..(first + count) as usize;
         for block in self.blocks.get(range).unwrap_or(&[]) {
-            let candidates = block.candidates(&self.filter);
-            for (place, candidate) in candidates.into_iter().enumerate() {
-                if candidate && self.exact_test(block, place) {
+            let mut candidates = block.candidates(&self.filter);
+            while candidates != 0 {
+                let place = candidates.trailing_zeros() as usize % BLOCK;
+                candidates &= candidates - 1;
+                if self.exact_test(block, place) {
                     return true;
                 }
             }

@@ -25,6 +25,7 @@ pub struct TriangleHit {
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleRay {
     origin: DVec3,
+    direction: DVec3,
     inverse: DVec3,
     axis: usize,
     shear_x: f64,
@@ -55,7 +56,7 @@ impl TriangleRay {
         let axis = vector::max_axis(ray.d.abs());
         let [x, y, z] = permuted(d, axis);
         let inverse = DVec3::new(1.0 / d.x, 1.0 / d.y, 1.0 / d.z);
-        Self { origin: wide(ray.o), inverse, axis, shear_x: x / z, shear_y: y / z, inverse_z: 1.0 / z }
+        Self { origin: wide(ray.o), direction: d, inverse, axis, shear_x: x / z, shear_y: y / z, inverse_z: 1.0 / z }
     }
 
     /// The intersection with the triangle's plane where it lies inside of the triangle, on either side of the
@@ -84,8 +85,8 @@ impl TriangleRay {
         } else {
             (u.value / det, v_.value / det, w.value / det)
         };
-        let t = self.within_box((wa * a.z + wb * b.z + wc * c.z) * self.inverse_z, v);
-        let t = t as f32;
+        let t = self.on_plane(v).unwrap_or((wa * a.z + wb * b.z + wc * c.z) * self.inverse_z);
+        let t = self.within_box(t, v) as f32;
         (!t.is_nan()).then_some(TriangleHit { t, uv: Vec2::new(wb as f32, wc as f32) })
     }
 
@@ -93,6 +94,15 @@ impl TriangleRay {
     fn corner(&self, p: DVec3) -> Corner {
         let [x, y, z] = permuted(p - self.origin, self.axis);
         Corner { x: x - self.shear_x * z, y: y - self.shear_y * z, z }
+    }
+
+    /// Where the ray meets the triangle's plane; `None` where it runs within the plane. Its error is a few units of
+    /// double precision *per axis*, so that the sign is right for an origin that was moved out of its error box.
+    #[inline]
+    fn on_plane(&self, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+        let n = (b - a).cross(c - a);
+        let t = (a - self.origin).dot(n) / self.direction.dot(n);
+        t.is_finite().then_some(t)
     }
 
     /// `t` moved, by less than its own error, to where the ray is inside of the triangle's box, so that no

@@ -230,13 +230,13 @@ fn keep_first(rejected: &mut Vec<Rejected>) {
 }
 
 #[cfg(feature = "parallel")]
-fn for_each_tile(tiles: &[TileRect], f: impl Fn(&TileRect) + Sync) {
+fn for_each_tile(tiles: &[TileRect], f: impl Fn(&TileRect) + Sync + Send) {
     use rayon::prelude::*;
     tiles.par_iter().with_max_len(1).for_each(f);
 }
 
 #[cfg(not(feature = "parallel"))]
-fn for_each_tile(tiles: &[TileRect], f: impl Fn(&TileRect) + Sync) {
+fn for_each_tile(tiles: &[TileRect], f: impl Fn(&TileRect) + Sync + Send) {
     tiles.iter().for_each(f);
 }
 

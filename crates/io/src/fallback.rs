@@ -32,7 +32,7 @@ const SKY: UVec2 = UVec2::new(64, 32);
 /// A soft sky: bright above, dim below, with one warm broad light over the camera's left shoulder.
 pub fn light(builder: &mut SceneBuilder) {
     let key = vector::normalize(Vec3A::new(-0.6, 0.7, 0.75));
-    let mut texels = Vec::with_capacity((SKY.x * SKY.y) as usize);
+    let mut texels = Vec::with_capacity(3 * (SKY.x * SKY.y) as usize);
     for y in 0..SKY.y {
         for x in 0..SKY.x {
             let phi = (x as f32 + 0.5) / SKY.x as f32 * std::f32::consts::TAU;
@@ -49,11 +49,11 @@ pub fn light(builder: &mut SceneBuilder) {
                 c8 * c8
             };
             let sky = 0.18 + 0.55 * up * up;
-            texels.push([sky * 0.92 + 5.0 * lobe, sky + 4.7 * lobe, sky * 1.1 + 4.2 * lobe]);
+            texels.extend([sky * 0.92 + 5.0 * lobe, sky + 4.7 * lobe, sky * 1.1 + 4.2 * lobe]);
         }
     }
-    if let Ok(image) = ImageTexture::from_rgb_f32(SKY.x, SKY.y, texels)
-        && let Ok(sky) = ImageEnvironment::new(image)
+    if let Ok(image) = ImageTexture::from_f32(SKY.x, SKY.y, 3, texels)
+        && let Ok(sky) = ImageEnvironment::new(image, 1.0, 0.0)
     {
         builder.light(sky);
     }

@@ -38,7 +38,7 @@ impl Dim {
     /// Where the strides begin; below are the camera's numbers and those of the first vertex that joined them.
     pub const FIRST: u32 = 16;
 
-    /// The number `slot` of the vertex at `depth` (0 is the first hit).
+    /// The number `slot` of the vertex at `depth` (0 is the first hit). Past a depth of 4 · 10⁸ the numbers repeat.
     #[inline]
     pub const fn bounce(depth: u32, slot: Slot) -> Self {
         // The first vertex's light and BSDF pairs live in the joint block of eight.

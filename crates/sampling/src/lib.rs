@@ -1,5 +1,32 @@
-//! Sampling (skeleton).
+//! Random numbers as functions, and what turns them into directions, points and choices.
+//!
+//! * [`Sampler`]: one point of an infinite-dimensional point set. [`Sobol`] is the default, [`Stratified`] and
+//!   [`Independent`] are the classics beside it; a user's own enters by the same trait.
+//! * [`warp`]: from the unit square to discs, triangles, hemispheres, cones and solid angles, with densities.
+//! * [`Distribution1d`], [`Distribution2d`], [`AliasTable`], [`remap`]: discrete choices.
+//! * [`mis`]: weights of multiple importance sampling. [`stats`]: moments, and error bars that are true.
+//!
+//! ```
+//! use etendue_sampling::{Dim, Sampler, Slot, Sobol, stats, warp};
+//!
+//! // The irradiance under a sky of radiance 1 is π. Uniform directions: every sample is cos θ / (1/2π).
+//! let sampler = Sobol::new(42, 256).with_replicates(16);
+//! let mut means = [0.0; 16];
+//! for index in 0..256 {
+//!     let u = sampler.start(0, index).get_2d(Dim::bounce(0, Slot::Bsdf));
+//!     let w = warp::hemisphere(u);
+//!     means[index as usize % 16] += f64::from(w.z / warp::HEMISPHERE_PDF) / 16.0;
+//! }
+//! let estimate = stats::estimate_from_replicates(means).unwrap();
+//! assert!((estimate.mean - std::f64::consts::PI).abs() < estimate.half_width(0.999));
+//! assert!(estimate.standard_error < 0.02, "256 independent samples have 0.11");
+//! ```
+//!
+//! Limits: [`Sobol`] stratifies the first vertex jointly, later vertices each by itself; samples are 24 bits
+//! (32 where `f64` is asked for). Nothing here knows rays or surfaces: the crate stands on `etendue-core` alone.
+
 mod dim;
+mod distribution;
 mod hash;
 mod independent;
 pub mod mis;
@@ -8,10 +35,15 @@ pub mod remap;
 mod rng;
 mod sampler;
 mod sobol;
+pub mod stats;
 mod stratified;
 mod stream;
 pub mod warp;
+
 pub use dim::{Dim, Slot};
+pub use distribution::{
+    AliasSample, AliasTable, Distribution1d, Distribution2d, DistributionError, Sample1d, Sample2d,
+};
 pub use hash::{mix, mix2};
 pub use independent::Independent;
 pub use rng::pcg32;

@@ -149,7 +149,6 @@ fn rate<S: Sampler>(
 #[test]
 fn errors_fall_at_the_rates_of_theory() {
     let counts = [64, 256, 1024, 4096];
-    let film = |s: &dyn Fn(Dim) -> etendue_core::Vec2| s(Dim::FILM);
     let disc = |p: etendue_core::Vec2| {
         f64::from(u8::from(f64::from(p.x).powi(2) + f64::from(p.y).powi(2) < 2.0 / PI))
     };
@@ -167,7 +166,7 @@ fn errors_fall_at_the_rates_of_theory() {
     assert!((-1.15..-0.85).contains(&s), "independent {s}");
 
     // Two dimensions, smooth and with an edge.
-    let s = rate(Sobol::new, &counts, gauss_exact, |s| gauss(film(&|d| s.get_2d(d))));
+    let s = rate(Sobol::new, &counts, gauss_exact, |s| gauss(s.get_2d(Dim::FILM)));
     assert!(s < -2.5, "Sobol 2-D smooth {s}");
     let s = rate(Sobol::new, &counts, 0.5, |s| disc(s.get_2d(Dim::FILM)));
     assert!((-1.75..-1.3).contains(&s), "Sobol 2-D edge {s}");
@@ -197,7 +196,7 @@ fn jittered_variance_obeys_the_exact_law() {
 }
 
 /// Over many seeds the mean of every sampler must be the integral: within 4.5 standard errors of 2000 means. A bias
-/// of 0.03 % (Sobol, 64 samples) would be seen; the mutant has 0.2 %.
+/// of 0.4 % would be seen at 64 samples; the mutant has 1 %.
 #[test]
 fn every_sampler_is_unbiased() {
     fn z<S: Sampler>(make: impl Fn(u64) -> S, n: u64, f: impl Fn([f64; 4]) -> f64) -> f64 {
@@ -222,6 +221,6 @@ fn every_sampler_is_unbiased() {
         ];
         assert!(all.iter().all(|z| z.abs() < 4.5), "{n} samples: {all:?}");
     }
-    let mutant = z(|r| Sobol::new(r, 64), 64, |x| squares(x.map(|v| v * 0.999)) * 1.002);
+    let mutant = z(|r| Sobol::new(r, 64), 64, |x| squares(x) * 1.01);
     assert!(mutant.abs() > 4.5, "{mutant}");
 }

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use etendue_core::{Needs, Transform};
-use etendue_geometry::Geometry;
+use etendue_geometry::{Geometry, Shape};
 use etendue_light::{Light, MeshLight, ParallelogramLight, ShapeLight, SphereLight};
 use etendue_texture::Texture;
 
@@ -95,22 +95,24 @@ fn light_of(
     e: &Emission,
 ) -> Result<Arc<dyn Light>, SceneError> {
     let cannot = |why| SceneError::CannotEmit { geom, why };
-    let placed = "it is placed through a transform; only meshes can emit there: use a mesh, or add it to the world";
+    let (radiance, two_sided) = (e.radiance.clone(), e.two_sided);
+    let to_world = to_world.copied();
+    // A placed shape may be sheared out of its family: it is sampled by area, like a shape from outside.
+    let by_area = |shape: Arc<dyn Shape>| -> Result<Arc<dyn Light>, SceneError> {
+        if shape.area() <= 0.0 {
+            return Err(cannot("the shape gives no area, so no point on it can be drawn"));
+        }
+        Ok(Arc::new(ShapeLight::new(shape, to_world, radiance.clone(), two_sided)))
+    };
     Ok(match geometry {
-        Geometry::Mesh(mesh) => {
-            Arc::new(MeshLight::new(mesh.clone(), to_world.copied(), e.radiance.clone(), e.two_sided))
-        }
-        _ if to_world.is_some() => return Err(cannot(placed)),
-        Geometry::Sphere(s) => Arc::new(SphereLight::new(*s, e.radiance.clone(), e.two_sided)),
+        Geometry::Mesh(mesh) => Arc::new(MeshLight::new(mesh.clone(), to_world, radiance, two_sided)),
+        Geometry::Sphere(s) if to_world.is_some() => by_area(Arc::new(*s))?,
+        Geometry::Parallelogram(p) if to_world.is_some() => by_area(Arc::new(*p))?,
+        Geometry::Sphere(s) => Arc::new(SphereLight { two_sided, ..SphereLight::new(*s, radiance) }),
         Geometry::Parallelogram(p) => {
-            Arc::new(ParallelogramLight::new(*p, e.radiance.clone(), e.two_sided))
+            Arc::new(ParallelogramLight { two_sided, ..ParallelogramLight::new(*p, radiance) })
         }
-        Geometry::Plane(_) => return Err(cannot("an infinite plane has no finite power")),
-        Geometry::Open(shape) => {
-            if shape.area() <= 0.0 {
-                return Err(cannot("the shape gives no area, so no point on it can be drawn"));
-            }
-            Arc::new(ShapeLight::new(shape.clone(), e.radiance.clone(), e.two_sided))
-        }
+        Geometry::Plane(_) => return Err(cannot("an infinite plane has no finite power; use a parallelogram")),
+        Geometry::Open(shape) => by_area(shape.clone())?,
     })
 }

@@ -50,7 +50,7 @@ pub fn empty_cornell_box() -> Preset {
         builder: b,
         eye: Vec3A::new(0.0, 0.5, 1.9),
         target: Vec3A::new(0.0, 0.5, 0.0),
-        vertical_fov_deg: 40.0,
+        vertical_fov_deg: 39.0,
     }
 }
 

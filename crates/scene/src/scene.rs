@@ -35,6 +35,12 @@ pub struct Scene {
     parts: Parts,
 }
 
+impl std::fmt::Debug for Scene {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Scene({}; {:?})", self.parts.report, self.needs())
+    }
+}
+
 impl Scene {
     pub(crate) fn assemble(parts: Parts) -> Self {
         Self { parts }

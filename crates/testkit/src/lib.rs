@@ -21,18 +21,25 @@
 //! Limits: a suite samples the contract, it does not prove it. A defect below the stated power goes unseen. This
 //! crate uses all trait crates and stands outside of the facade; name it as a dev-dependency.
 
+mod bench_accel;
 mod budget;
 mod check_bsdf;
 mod check_camera;
+mod check_estimator;
 mod check_light;
 mod check_picker;
+mod check_sampler;
 mod check_shape;
 mod sphere_grid;
 pub mod stats;
+pub mod strategies;
 
+pub use bench_accel::{AccelSpeed, bench_accel};
 pub use budget::{Budget, Failure, Outcome, Passed};
 pub use check_bsdf::check_bsdf;
 pub use check_camera::check_camera;
+pub use check_estimator::{Radiance, Truth, check_estimator, check_integrator};
 pub use check_light::{Seen, check_light, lit_point};
 pub use check_picker::check_picker;
+pub use check_sampler::check_sampler;
 pub use check_shape::check_shape;

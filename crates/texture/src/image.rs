@@ -140,7 +140,8 @@ impl ImageTexture {
         if x >= self.width || y >= self.height {
             return Vec4::ZERO;
         }
-        self.texels.texel(self.offset(x, y), self.channels as usize)
+        let [texel] = self.texels.texels([self.offset(x, y)], self.channels as usize);
+        texel
     }
 
     #[inline]
@@ -158,8 +159,9 @@ impl ImageTexture {
         let (x, y) = (self.wrap[0].pair(uv.x, self.width), self.wrap[1].pair(uv.y, self.height));
         // Written so that equal neighbours give themselves exactly, and nothing beyond the larger one.
         let mix = |a: Vec4, b: Vec4, t: f32| a + (b - a) * t;
-        let top = mix(self.texel(x.lo, y.lo), self.texel(x.hi, y.lo), x.t);
-        let bottom = mix(self.texel(x.lo, y.hi), self.texel(x.hi, y.hi), x.t);
+        let places = [(x.lo, y.lo), (x.hi, y.lo), (x.lo, y.hi), (x.hi, y.hi)].map(|(x, y)| self.offset(x, y));
+        let [a, b, c, d] = self.texels.texels(places, self.channels as usize);
+        let (top, bottom) = (mix(a, b, x.t), mix(c, d, x.t));
         mix(top, bottom, y.t)
     }
 

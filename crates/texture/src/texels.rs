@@ -50,15 +50,18 @@ impl Texels {
         }
     }
 
-    /// Red, green, blue and alpha of the texel that starts at `i`.
+    /// Red, green, blue and alpha of the texels that start at each place: what kind of image it is, is asked once.
     #[inline]
-    pub(crate) fn texel(&self, i: usize, channels: usize) -> Vec4 {
-        let c = |k: usize| self.number(i + k, false);
-        match channels {
-            1 => Vec4::new(c(0), c(0), c(0), 1.0),
-            2 => Vec4::new(c(0), c(0), c(0), self.number(i + 1, true)),
-            3 => Vec4::new(c(0), c(1), c(2), 1.0),
-            _ => Vec4::new(c(0), c(1), c(2), self.number(i + 3, true)),
+    pub(crate) fn texels<const N: usize>(&self, places: [usize; N], channels: usize) -> [Vec4; N] {
+        match self {
+            Self::Bytes { data, decode, alpha, .. } => places.map(|i| {
+                let byte = |k: usize| usize::from(data.get(i + k).copied().unwrap_or(0));
+                spread(channels, |k| decode[byte(k)], |k| alpha[byte(k)])
+            }),
+            Self::Floats(data) => {
+                let float = |i: usize| data.get(i).copied().unwrap_or(0.0);
+                places.map(|i| spread(channels, |k| float(i + k), |k| float(i + k)))
+            }
         }
     }
 
@@ -80,6 +83,17 @@ impl Texels {
             Self::Bytes { data, .. } => data.len() + 2 * size_of::<[f32; 256]>(),
             Self::Floats(data) => data.len() * size_of::<f32>(),
         }
+    }
+}
+
+/// What the channels of a texel mean.
+#[inline(always)]
+fn spread(channels: usize, color: impl Fn(usize) -> f32, alpha: impl Fn(usize) -> f32) -> Vec4 {
+    match channels {
+        1 => Vec4::new(color(0), color(0), color(0), 1.0),
+        2 => Vec4::new(color(0), color(0), color(0), alpha(1)),
+        3 => Vec4::new(color(0), color(1), color(2), 1.0),
+        _ => Vec4::new(color(0), color(1), color(2), alpha(3)),
     }
 }
 

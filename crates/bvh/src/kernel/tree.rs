@@ -1,4 +1,4 @@
-use etendue_core::Aabb;
+use etendue_core::{Aabb, Vec4};
 
 use super::{BoxRay, FAR_PAD};
 
@@ -13,8 +13,6 @@ impl Child {
     const LEAF: u32 = 1 << 31;
     const COUNT_SHIFT: u32 = 28;
     const FIRST: u32 = (1 << Self::COUNT_SHIFT) - 1;
-    /// The most items of one leaf.
-    pub(crate) const MOST_ITEMS: usize = 8;
     /// The most leaf items a tree can number.
     pub(crate) const MOST_FIRST: usize = Self::FIRST as usize;
 
@@ -47,17 +45,23 @@ impl Child {
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
-    /// Low and high planes, by axis and child.
-    planes: [[[f32; WIDTH]; 3]; 2],
+    /// Low and high planes, by axis; one lane for each child.
+    planes: [[Vec4; 3]; 2],
     children: [Child; WIDTH],
+}
+
+/// The boxes a ray meets.
+struct Met {
+    /// Where it enters each box.
+    near: [f32; WIDTH],
+    /// One bit for each box that counts.
+    mask: u32,
 }
 
 impl Node {
     /// All places empty: boxes that no ray meets.
-    pub(crate) const EMPTY: Self = Self {
-        planes: [[[f32::INFINITY; WIDTH]; 3], [[f32::NEG_INFINITY; WIDTH]; 3]],
-        children: [Child(0); WIDTH],
-    };
+    pub(crate) const EMPTY: Self =
+        Self { planes: [[Vec4::INFINITY; 3], [Vec4::NEG_INFINITY; 3]], children: [Child(0); WIDTH] };
 
     pub(crate) fn set(&mut self, place: usize, bounds: &Aabb, child: Child) {
         for axis in 0..3 {
@@ -69,22 +73,33 @@ impl Node {
 
     /// Where the ray enters each box, and whether it meets it before `limit`.
     #[inline(always)]
-    fn enter(&self, ray: &BoxRay, limit: f32) -> ([f32; WIDTH], [bool; WIDTH]) {
-        let mut near = [ray.t_min; WIDTH];
-        let mut far = [limit; WIDTH];
+    fn enter(&self, ray: &BoxRay, limit: f32) -> Met {
+        let mut near = Vec4::splat(ray.t_min);
+        let mut far = Vec4::splat(limit);
         for axis in 0..3 {
             let down = ray.down[axis] & 1;
-            let (n, f) = (&self.planes[down][axis], &self.planes[1 - down][axis]);
-            let (no, fo, inverse) = (ray.near_origin[axis], ray.far_origin[axis], ray.inverse[axis]);
-            for i in 0..WIDTH {
-                let (tn, tf) = ((n[i] - no) * inverse, (f[i] - fo) * inverse);
-                near[i] = if tn > near[i] { tn } else { near[i] };
-                far[i] = if tf < far[i] { tf } else { far[i] };
-            }
+            let inverse = Vec4::splat(ray.inverse[axis]);
+            let n = (self.planes[down][axis] - Vec4::splat(ray.near_origin[axis])) * inverse;
+            let f = (self.planes[1 - down][axis] - Vec4::splat(ray.far_origin[axis])) * inverse;
+            near = larger_or(n, near);
+            far = smaller_or(f, far);
         }
-        let met = std::array::from_fn(|i| near[i] <= far[i] + far[i].abs() * FAR_PAD);
-        (near, met)
+        let mask = near.cmple(far + far.abs() * FAR_PAD).bitmask();
+        Met { near: near.to_array(), mask }
     }
+}
+
+/// The larger of each pair; where `a` is not a number, `b`.
+#[inline(always)]
+fn larger_or(a: Vec4, b: Vec4) -> Vec4 {
+    // On x86 this is what the instruction does; elsewhere the instruction may keep the NaN.
+    if cfg!(target_arch = "x86_64") { a.max(b) } else { Vec4::select(a.cmpgt(b), a, b) }
+}
+
+/// The smaller of each pair; where `a` is not a number, `b`.
+#[inline(always)]
+fn smaller_or(a: Vec4, b: Vec4) -> Vec4 {
+    if cfg!(target_arch = "x86_64") { a.min(b) } else { Vec4::select(a.cmplt(b), a, b) }
 }
 
 /// What a traversal calls.
@@ -133,19 +148,19 @@ impl Tree {
         let mut index = 0u32;
         loop {
             let Some(node) = self.nodes.get(index as usize) else { return false };
-            let (near, met) = node.enter(ray, visitor.limit());
+            let Met { near, mut mask } = node.enter(ray, visitor.limit());
             let base = top;
-            for i in 0..WIDTH {
-                if met[i] && top < STACK {
-                    // Insertion, farthest at the bottom.
-                    let mut at = top;
-                    while at > base && stack[at - 1].near < near[i] {
-                        stack[at] = stack[at - 1];
-                        at -= 1;
-                    }
-                    stack[at] = Waiting { near: near[i], child: node.children[i] };
-                    top += 1;
+            while mask != 0 && top < STACK {
+                let i = mask.trailing_zeros() as usize & (WIDTH - 1);
+                mask &= mask - 1;
+                // Insertion, farthest at the bottom.
+                let mut at = top;
+                while at > base && stack[at - 1].near < near[i] {
+                    stack[at] = stack[at - 1];
+                    at -= 1;
                 }
+                stack[at] = Waiting { near: near[i], child: node.children[i] };
+                top += 1;
             }
             index = loop {
                 if top == 0 {

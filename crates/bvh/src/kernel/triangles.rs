@@ -1,5 +1,5 @@
 use etendue_core::rounding::U;
-use etendue_core::{Ray, Vec3A, vector};
+use etendue_core::{Ray, Vec3A, Vec4, vector};
 
 /// Triangles of one block.
 pub(crate) const BLOCK: usize = 4;
@@ -9,11 +9,13 @@ pub(crate) const BLOCK: usize = 4;
 #[repr(C, align(16))]
 pub(crate) struct Block {
     /// By corner, axis and triangle.
-    corners: [[[f32; BLOCK]; 3]; 3],
+    corners: [[Vec4; 3]; 3],
     /// Geometry of each triangle.
     pub(crate) geom: [u32; BLOCK],
     /// Triangle within its mesh.
     pub(crate) prim: [u32; BLOCK],
+    /// A bit for each place that holds a triangle.
+    occupied: u32,
 }
 
 /// One triangle on its way into a block.
@@ -25,16 +27,10 @@ pub(crate) struct BlockTriangle {
 }
 
 impl Block {
-    /// Marks a place without a triangle.
-    const VACANT: u32 = u32::MAX;
-
     /// At most four are kept.
     pub(crate) fn new(triangles: impl Iterator<Item = BlockTriangle>) -> Self {
-        let mut block = Self {
-            corners: [[[0.0; BLOCK]; 3]; 3],
-            geom: [Self::VACANT; BLOCK],
-            prim: [Self::VACANT; BLOCK],
-        };
+        let mut block =
+            Self { corners: [[Vec4::ZERO; 3]; 3], geom: [0; BLOCK], prim: [0; BLOCK], occupied: 0 };
         for (place, triangle) in triangles.take(BLOCK).enumerate() {
             for (corner, p) in triangle.corners.iter().enumerate() {
                 for axis in 0..3 {
@@ -43,6 +39,7 @@ impl Block {
             }
             block.geom[place] = triangle.geom;
             block.prim[place] = triangle.prim;
+            block.occupied |= 1 << place;
         }
         block
     }
@@ -52,7 +49,7 @@ impl Block {
         self.corners.each_ref().map(|c| Vec3A::new(c[0][place], c[1][place], c[2][place]))
     }
 
-    /// Which triangles the ray may meet: every one that the exact test accepts, and few others.
+    /// A bit for each triangle that the ray may meet: every one that the exact test accepts, and few others.
     ///
     /// The edge functions of the exact test in single precision, with a bound on their error. Let s bound the
     /// magnitudes of a corner's translated coordinates and q those of its sheared ones. Translating, shearing and the
@@ -60,36 +57,28 @@ impl Block {
     /// more than 10 u s (q + q') + 64 u² s². Only where one is certainly negative and another certainly positive is
     /// the triangle out. Anything that is not a number stays in.
     #[inline(always)]
-    pub(crate) fn candidates(&self, ray: &FilterRay) -> [bool; BLOCK] {
+    pub(crate) fn candidates(&self, ray: &FilterRay) -> u32 {
         let [kx, ky, kz] = ray.axes;
-        let (mut x, mut y) = ([[0.0f32; BLOCK]; 3], [[0.0f32; BLOCK]; 3]);
-        let (mut sheared, mut depth) = ([0.0f32; BLOCK], [0.0f32; BLOCK]);
-        for c in 0..3 {
-            let corner = &self.corners[c];
-            for i in 0..BLOCK {
-                let z = corner[kz][i] - ray.origin[2];
-                let px = (corner[kx][i] - ray.origin[0]) - ray.shear[0] * z;
-                let py = (corner[ky][i] - ray.origin[1]) - ray.shear[1] * z;
-                x[c][i] = px;
-                y[c][i] = py;
-                sheared[i] += px.abs() + py.abs();
-                depth[i] += z.abs();
-            }
+        let mut x = [Vec4::ZERO; 3];
+        let mut y = [Vec4::ZERO; 3];
+        let (mut sheared, mut depth) = (Vec4::ZERO, Vec4::ZERO);
+        for (c, corner) in self.corners.iter().enumerate() {
+            let z = corner[kz] - Vec4::splat(ray.origin[2]);
+            x[c] = (corner[kx] - Vec4::splat(ray.origin[0])) - z * ray.shear[0];
+            y[c] = (corner[ky] - Vec4::splat(ray.origin[1])) - z * ray.shear[1];
+            sheared += x[c].abs() + y[c].abs();
+            depth += z.abs();
         }
-        let mut out = [false; BLOCK];
-        for i in 0..BLOCK {
-            let u = x[1][i] * y[2][i] - y[1][i] * x[2][i];
-            let v = x[2][i] * y[0][i] - y[2][i] * x[0][i];
-            let w = x[0][i] * y[1][i] - y[0][i] * x[1][i];
-            // |a| <= |sheared| + |z| on each of the two axes across, and |z| along.
-            let s = sheared[i] + 3.0 * depth[i];
-            // The last term covers what products lose below the smallest normal number.
-            let bound = s * (10.0 * U * sheared[i] + 64.0 * U * U * s) + f32::MIN_POSITIVE;
-            let negative = (u < -bound) | (v < -bound) | (w < -bound);
-            let positive = (u > bound) | (v > bound) | (w > bound);
-            out[i] = !(negative & positive) & (self.geom[i] != Self::VACANT);
-        }
-        out
+        let u = x[1] * y[2] - y[1] * x[2];
+        let v = x[2] * y[0] - y[2] * x[0];
+        let w = x[0] * y[1] - y[0] * x[1];
+        // |a| <= |sheared| + |z| on each of the two axes across, and |z| along.
+        let s = sheared + depth * 3.0;
+        // The last term covers what products lose below the smallest normal number.
+        let bound = s * (sheared * (10.0 * U) + s * (64.0 * U * U)) + Vec4::splat(f32::MIN_POSITIVE);
+        let negative = u.cmplt(-bound) | v.cmplt(-bound) | w.cmplt(-bound);
+        let positive = u.cmpgt(bound) | v.cmpgt(bound) | w.cmpgt(bound);
+        !(negative & positive).bitmask() & self.occupied
     }
 }
 

@@ -60,7 +60,13 @@ impl TriangleMesh {
         let p = a * (1.0 - u - v) + b * u + c * v;
         let [ra, rb, rc] = [a, b, c].map(largest);
         let reach = if ra > rb { ra } else { rb };
-        rounded(p, if reach > rc { reach } else { rc })
+        let reach = if reach > rc { reach } else { rc };
+        // What the intersection test loses in double precision grows with the aspect of the triangle: the product of
+        // the edges over twice the area.
+        let (e1, e2) = (b - a, c - a);
+        let n = e1.cross(e2);
+        let aspect = (e1.dot(e1) * e2.dot(e2) / n.dot(n)).sqrt() / 16.0;
+        rounded(p, if aspect > 1.0 && aspect.is_finite() { reach * aspect } else { reach })
     }
 
     fn shading_normal(&self, prim: u32, uv: Vec2, ng: Vec3A) -> Vec3A {

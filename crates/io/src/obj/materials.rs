@@ -1,10 +1,11 @@
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use etendue_core::Spectrum;
 use etendue_geometry::Geometry;
 use etendue_material::{Cutout, Diffuse, Glass, Metal, MirrorMaterial};
 use etendue_scene::{Emission, GeomId, MaterialId, SceneBuilder};
-use etendue_texture::{ImageTexture, ScalarTex, Tex};
+use etendue_texture::{Channel, Encoding, ImageTexture, ImageUse, ScalarTex, Tex};
 
 use crate::{Limits, Resolver};
 
@@ -74,7 +75,7 @@ pub(crate) struct Made<'a> {
     resolver: &'a dyn Resolver,
     limits: &'a Limits,
     ids: HashMap<Option<usize>, MaterialId>,
-    images: HashMap<String, Option<ImageTexture>>,
+    images: HashMap<String, Option<Arc<ImageTexture>>>,
     image_bytes: u64,
     pub(crate) warnings: Vec<String>,
 }
@@ -105,7 +106,7 @@ impl<'a> Made<'a> {
 
     /// Makes the model's geometry emit if its material does. True if it does.
     pub(crate) fn emit(&self, index: Option<usize>, geom: GeomId, builder: &mut SceneBuilder) -> bool {
-        let Some(ke) = index.and_then(|i| self.mtl.get(i)).and_then(|m| emissive(m)) else { return false };
+        let Some(ke) = index.and_then(|i| self.mtl.get(i)).and_then(emissive) else { return false };
         builder.emit(geom, Emission::new(Tex::from(ke)));
         true
     }
@@ -125,7 +126,7 @@ impl<'a> Made<'a> {
             return builder.material(Glass::new(eta));
         }
         if metallic >= 0.5 {
-            return builder.material(Metal::tinted(kd, roughness.unwrap_or(0.3)));
+            return builder.material(Metal::schlick(kd, roughness.unwrap_or(0.3)));
         }
         if matches!(illum, 3 | 5 | 8) && kd.is_black() && !ks.is_black() {
             return builder.material(MirrorMaterial::new(ks));
@@ -139,23 +140,23 @@ impl<'a> Made<'a> {
         };
         let base = Diffuse::new(albedo);
         if let Some(image) = m.dissolve_texture.as_deref().and_then(|t| self.image(t)) {
-            return builder.material(Cutout::new(base, ScalarTex::image(image, 0)));
+            return builder.material(Cutout::new(base, ScalarTex::image(ImageUse::new(image), Channel::R)));
         }
         if dissolve < 1.0 {
-            return builder.material(Cutout::new(base, ScalarTex::constant(dissolve.clamp(0.0, 1.0))));
+            return builder.material(Cutout::new(base, dissolve.clamp(0.0, 1.0)));
         }
         builder.material(base)
     }
 
     /// A texture by the name in the file, decoded once; `None` with a warning where it cannot be had.
-    fn image(&mut self, entry: &str) -> Option<ImageTexture> {
+    fn image(&mut self, entry: &str) -> Option<Arc<ImageTexture>> {
         // Options such as `-s 1 1 1` come first; the name is what follows the last of them.
         let name = texture_name(entry);
         if let Some(known) = self.images.get(name) {
             return known.clone();
         }
         let image = match self.decode(name) {
-            Ok(image) => Some(image),
+            Ok(image) => Some(Arc::new(image)),
             Err(why) => {
                 self.warnings.push(format!("texture '{name}': {why}; its colour is used instead"));
                 None
@@ -179,7 +180,7 @@ impl<'a> Made<'a> {
         let rgba = reader.decode().map_err(|e| e.to_string())?.into_rgba8();
         self.image_bytes += rgba.as_raw().len() as u64;
         let (w, h) = rgba.dimensions();
-        ImageTexture::from_srgb8(w, h, 4, rgba.into_raw()).map_err(|e| e.to_string())
+        ImageTexture::from_u8(w, h, 4, rgba.into_raw(), Encoding::Srgb).map_err(|e| e.to_string())
     }
 }
 

@@ -1,0 +1,169 @@
+//! Irradiance at points with closed forms. Each z-test has the power to see 0.5 % (see `Mean::check`).
+
+mod support;
+
+use std::sync::Arc;
+
+use etendue_core::{Spectrum, Transform, Vec3A};
+use etendue_geometry::{Parallelogram, Sphere, presets};
+use etendue_light::{Light, MeshLight, ParallelogramLight, PointLight, ShapeLight, SphereLight};
+use etendue_texture::Tex;
+use support::{Mean, Rng, irradiance, irradiance_of, polygon_irradiance, receiver};
+
+const ONE: Tex = Tex::Constant(Spectrum::ONE);
+
+/// A unit square at height `h` that faces down, centred over (x, z) = (0, 0).
+fn ceiling(h: f32) -> Parallelogram {
+    Parallelogram::new(Vec3A::new(-0.5, h, -0.5), Vec3A::X, Vec3A::Z).expect("a square")
+}
+
+fn ceiling_mesh(h: f32) -> MeshLight {
+    let s = ceiling(h);
+    assert_eq!(s.normal(), -Vec3A::Y);
+    MeshLight::new(Arc::new(presets::quad(s.origin(), s.edge_u(), s.edge_v())), None, ONE, false)
+}
+
+#[test]
+fn point_light_is_exact() {
+    let lamp = PointLight::new(Vec3A::new(1.0, 3.0, -2.0), Spectrum::rgb(9.0, 18.0, 0.0));
+    let at = receiver(Vec3A::new(-1.0, 1.0, -1.0), Vec3A::Y);
+    let s = lamp.sample(&at, 0, etendue_core::Vec2::ZERO).expect("in front");
+    assert_eq!((s.li, s.pdf, s.is_delta), (Spectrum::rgb(1.0, 2.0, 0.0), 1.0, true));
+    assert!((s.wi - Vec3A::new(2.0, 2.0, -1.0) / 3.0).abs().max_element() < 1e-7);
+    assert!(lamp.sample(&receiver(at.p, -Vec3A::Y), 0, etendue_core::Vec2::ZERO).is_none());
+    assert!((lamp.power(0, 1.0).r() - 9.0 * 4.0 * std::f32::consts::PI).abs() < 1e-4);
+}
+
+/// A unit square parallel to the receiver at height h, under its centre or 1 m aside.
+#[test]
+fn unit_square_has_the_tabulated_irradiance() {
+    let table = [
+        (0.0f32, 0.10f32, 3.042_128_438),
+        (0.0, 0.25, 2.610_753_031),
+        (0.0, 0.50, 1.740_839_503),
+        (0.0, 1.00, 0.752_274_688),
+        (1.0, 0.25, 0.093_855_431),
+        (1.0, 1.00, 0.265_004_852),
+    ];
+    for (i, (x, h, e)) in table.into_iter().enumerate() {
+        let at = receiver(Vec3A::new(x, 0.0, 0.0), Vec3A::Y);
+        let what = format!("offset {x} height {h}");
+        irradiance(&ceiling_mesh(h), &at, 300_000, i as u64).check(e, &format!("mesh, {what}"));
+        let rectangle = ParallelogramLight::new(ceiling(h), ONE);
+        irradiance(&rectangle, &at, 300_000, 100 + i as u64).check(e, &format!("rectangle, {what}"));
+        let shape = ShapeLight::new(Arc::new(ceiling(h)), None, ONE, false);
+        let n = if h < 0.2 { 12_000_000 } else { 2_000_000 };
+        irradiance(&shape, &at, n, 200 + i as u64).check(e, &format!("by area, {what}"));
+    }
+}
+
+/// Below 3e-4 sr triangles and rectangles are sampled by area; the answer is the same closed form.
+#[test]
+fn far_away_lights_are_sampled_by_area() {
+    for h in [40.0f32, 80.0, 1000.0] {
+        let p = Vec3A::new(3.0, 0.0, -5.0);
+        let s = ceiling(h);
+        let corners = [
+            s.origin(),
+            s.origin() + s.edge_u(),
+            s.origin() + s.edge_u() + s.edge_v(),
+            s.origin() + s.edge_v(),
+        ];
+        let e = polygon_irradiance(&corners, p, Vec3A::Y);
+        let at = receiver(p, Vec3A::Y);
+        irradiance(&ceiling_mesh(h), &at, 20_000, 1).check(e, "mesh");
+        irradiance(&ParallelogramLight::new(s, ONE), &at, 20_000, 2).check(e, "rectangle");
+    }
+}
+
+/// A skew parallelogram, placed by a transform with uneven scale and a mirror.
+#[test]
+fn placed_and_skew_lights() {
+    let m = Transform::from_columns(
+        Vec3A::new(2.0, 0.3, 0.0),
+        Vec3A::new(0.0, 0.5, 0.4),
+        Vec3A::new(0.1, 0.0, -1.5),
+        Vec3A::new(0.2, 2.0, 0.4),
+    )
+    .expect("regular");
+    assert!(m.mirrors());
+    let shape =
+        Parallelogram::new(Vec3A::new(-0.5, 0.0, -0.5), Vec3A::new(1.0, 0.0, 0.2), Vec3A::new(0.3, 0.0, 0.9))
+            .expect("an area");
+    let [a, b, c] = [shape.origin(), shape.edge_u(), shape.edge_v()];
+    let corners = [m.point(a), m.point(a + b), m.point(a + b + c), m.point(a + c)];
+    let at = receiver(Vec3A::new(0.1, -1.0, 0.3), Vec3A::new(0.36, 0.8, 0.48));
+    let e = polygon_irradiance(&corners, at.p, at.ns);
+    let mesh = Arc::new(presets::quad(a, b, c));
+    irradiance(&MeshLight::new(mesh.clone(), Some(m), ONE, false), &at, 300_000, 5).check(e, "mesh");
+    irradiance(&ShapeLight::new(Arc::new(shape), Some(m), ONE, false), &at, 2_000_000, 6).check(e, "shape");
+    let world =
+        Parallelogram::new(corners[0], corners[1] - corners[0], corners[3] - corners[0]).expect("an area");
+    let two_sided = ParallelogramLight { two_sided: true, ..ParallelogramLight::new(world, ONE) };
+    irradiance(&two_sided, &at, 2_000_000, 7).check(e, "parallelogram");
+    // From behind a one-sided light is dark, a two-sided one is not.
+    let behind = receiver(Vec3A::new(0.1, 5.0, 0.3), -at.ns);
+    let one_sided = MeshLight::new(mesh.clone(), Some(m), ONE, false);
+    assert_eq!(irradiance(&one_sided, &behind, 1000, 8).error(), 0.0);
+    let e = polygon_irradiance(&corners, behind.p, behind.ns);
+    irradiance(&MeshLight::new(mesh, Some(m), ONE, true), &behind, 300_000, 9).check(e, "from behind");
+}
+
+/// E = π (R/d)² cos θ for a sphere above the horizon, from almost touching to very far.
+#[test]
+fn sphere_on_a_plane() {
+    for (i, (distance, cos)) in
+        [(1.01f32, 1.0f32), (1.5, 0.8), (3.0, 0.5), (100.0, 0.3), (1e4, 0.9), (3e6, 1.0)]
+            .into_iter()
+            .enumerate()
+    {
+        let radius = 0.7f32;
+        let center = Vec3A::new((1.0 - cos * cos).sqrt(), cos, 0.0) * (distance * radius);
+        let light = SphereLight::new(Sphere::new(center, radius).expect("a sphere"), Spectrum::ONE);
+        let at = receiver(Vec3A::ZERO, Vec3A::Y);
+        let d2 = f64::from(center.dot(center));
+        let e = std::f64::consts::PI * f64::from(radius * radius) / d2 * f64::from(center.y) / d2.sqrt();
+        irradiance(&light, &at, 300_000, i as u64).check(e, &format!("distance {distance} cos {cos}"));
+    }
+}
+
+/// Inside a two-sided sphere of radiance 1 every point sees radiance 1 everywhere: E = π.
+#[test]
+fn inside_a_sphere() {
+    let sphere = Sphere::new(Vec3A::new(0.2, 0.0, 0.1), 2.0).expect("a sphere");
+    let light = SphereLight { two_sided: true, ..SphereLight::new(sphere, Spectrum::ONE) };
+    let at = receiver(Vec3A::new(1.0, 0.3, -0.4), Vec3A::Y);
+    irradiance(&light, &at, 4_000_000, 1).check(std::f64::consts::PI, "inside");
+    assert!(SphereLight::new(sphere, Spectrum::ONE).sample(&at, 0, etendue_core::Vec2::ZERO).is_none());
+}
+
+/// The form factor of two parallel unit squares 1 m apart, and of two that share an edge at a right angle: receiver
+/// points uniform over one, the other a light.
+#[test]
+fn form_factors_of_squares() {
+    let sideways = Parallelogram::new(Vec3A::new(-0.5, 0.0, -0.5), Vec3A::Z, Vec3A::Y).expect("a square");
+    assert_eq!(sideways.normal(), -Vec3A::X);
+    let flipped = Parallelogram::new(sideways.origin(), Vec3A::Y, Vec3A::Z).expect("a square");
+    for (square, factor, name) in [
+        (ceiling(1.0), 0.199_824_895_698_387_4, "parallel"),
+        (flipped, 0.200_043_776_075_403_2, "perpendicular"),
+    ] {
+        let mesh = presets::quad(square.origin(), square.edge_u(), square.edge_v());
+        let mesh = MeshLight::new(Arc::new(mesh), None, ONE, false);
+        let rectangle = ParallelogramLight::new(square, ONE);
+        let mut rng = Rng(3);
+        let (mut by_triangles, mut by_rectangle) = (Mean::default(), Mean::default());
+        for _ in 0..3_000_000 {
+            let xz = rng.pair();
+            let at = receiver(Vec3A::new(xz.x - 0.5, 0.0, xz.y - 0.5), Vec3A::Y);
+            let part = u32::from(rng.next() < 0.5);
+            by_triangles.add(
+                2.0 * irradiance_of(mesh.sample(&at, part, rng.pair()), Vec3A::Y) / std::f64::consts::PI,
+            );
+            by_rectangle
+                .add(irradiance_of(rectangle.sample(&at, 0, rng.pair()), Vec3A::Y) / std::f64::consts::PI);
+        }
+        by_triangles.check(factor, &format!("{name}, triangles"));
+        by_rectangle.check(factor, &format!("{name}, rectangle"));
+    }
+}
