@@ -8,7 +8,7 @@ use crate::build::{Costs, Leaves, Stored, build_tree};
 use crate::group::{BuildContext, Group, GroupQuery};
 use crate::kernel::{BoxRay, Tree, Visitor};
 use crate::sink::Sink;
-use crate::{BuildError, World};
+use crate::{BuildError, BuildReport, World};
 
 /// One instance, ready to be tested.
 #[derive(Clone, Debug)]
@@ -69,19 +69,23 @@ impl Instances {
     pub(crate) fn build(world: &World, cx: &mut BuildContext<'_>) -> Result<Self, BuildError> {
         // Groups are told apart by what is in them, so that instances share wherever they can.
         let mut numbers: BTreeMap<&[u32], u32> = BTreeMap::new();
-        let mut groups: Vec<Group> = Vec::new();
+        let mut lists: Vec<&[u32]> = Vec::new();
+        for instance in &world.instances {
+            numbers.entry(&instance.geoms).or_insert_with(|| {
+                lists.push(&instance.geoms);
+                lists.len() as u32 - 1
+            });
+        }
+        let mut groups = Vec::with_capacity(lists.len());
+        for built in build_groups(world, &lists, cx) {
+            let BuiltGroup { group, report } = built?;
+            cx.report.add(&report);
+            groups.push(group);
+        }
         let (mut boxes, mut bounded, mut unbounded) = (Vec::new(), Vec::new(), Vec::new());
         let mut drift = Drift::default();
         for (inst, instance) in world.instances.iter().enumerate() {
-            let group = match numbers.get(&*instance.geoms) {
-                Some(&group) => group,
-                None => {
-                    let group = groups.len() as u32;
-                    groups.push(Group::build(world, &instance.geoms, cx)?);
-                    numbers.insert(&instance.geoms, group);
-                    group
-                }
-            };
+            let Some(&group) = numbers.get(&*instance.geoms) else { continue };
             let Some(content) = groups.get(group as usize) else { continue };
             if content.is_empty() {
                 continue;
@@ -140,6 +144,32 @@ impl Instances {
         let (object_ray, _) = placed.to_world.ray_to_object(ray);
         object_ray.is_valid() && group.query(&GroupQuery { ray: &object_ray, inst: placed.inst, masks }, sink)
     }
+}
+
+struct BuiltGroup {
+    group: Group,
+    report: BuildReport,
+}
+
+/// Each on its own; with the feature `parallel` on the current rayon pool.
+fn build_groups(
+    world: &World,
+    lists: &[&[u32]],
+    cx: &BuildContext<'_>,
+) -> Vec<Result<BuiltGroup, BuildError>> {
+    let (options, cancel) = (cx.options, cx.cancel);
+    let build = |geoms: &&[u32]| {
+        let mut cx = BuildContext { options, cancel, report: BuildReport::default() };
+        let group = Group::build(world, geoms, &mut cx)?;
+        Ok(BuiltGroup { group, report: cx.report })
+    };
+    #[cfg(feature = "parallel")]
+    {
+        use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+        lists.par_iter().map(build).collect()
+    }
+    #[cfg(not(feature = "parallel"))]
+    lists.iter().map(build).collect()
 }
 
 struct Order(Vec<u32>);

@@ -52,6 +52,19 @@ pub struct BuildReport {
     pub bytes: usize,
 }
 
+impl BuildReport {
+    /// The sum of two reports; of depths, the larger.
+    pub(crate) fn add(&mut self, o: &Self) {
+        self.primitives += o.primitives;
+        self.dropped_degenerate += o.dropped_degenerate;
+        self.dropped_non_finite += o.dropped_non_finite;
+        self.nodes += o.nodes;
+        self.depth = self.depth.max(o.depth);
+        self.fallbacks += o.fallbacks;
+        self.bytes += o.bytes;
+    }
+}
+
 /// Hierarchies over triangles, shapes and instances: the general [`Accel`].
 pub struct TreeAccel {
     direct: Group,

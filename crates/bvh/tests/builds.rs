@@ -59,7 +59,11 @@ fn pathologies(n: usize) -> Vec<(&'static str, TriangleMesh)> {
             "a flat grid",
             from_triangles((0..2 * side * side).map(|i| {
                 let at = Vec3::new((i / 2 % side) as f32, 0.0, (i / 2 / side) as f32);
-                if i % 2 == 0 { [at, at + Vec3::Z, at + Vec3::X] } else { [at + Vec3::X, at + Vec3::Z, at + Vec3::X + Vec3::Z] }
+                if i % 2 == 0 {
+                    [at, at + Vec3::Z, at + Vec3::X]
+                } else {
+                    [at + Vec3::X, at + Vec3::Z, at + Vec3::X + Vec3::Z]
+                }
             })),
         ),
         (
@@ -136,8 +140,9 @@ fn garbage(rng: &mut Rng) -> World {
     for _ in 0..20 {
         let triangles = rng.below(256);
         let vertices = 3 * triangles.max(1);
-        let positions =
-            (0..vertices).map(|_| Vec3::from_array([0; 3].map(|_| f32::from_bits(rng.bits() as u32)))).collect();
+        let positions = (0..vertices)
+            .map(|_| Vec3::from_array([0; 3].map(|_| f32::from_bits(rng.bits() as u32))))
+            .collect();
         let indices = (0..triangles as u32)
             .map(|i| match rng.below(32) {
                 0 => [0; 3].map(|_| rng.below(vertices) as u32),
@@ -157,7 +162,8 @@ fn garbage_is_harmless(worlds: usize) {
         assert!(accel.report().depth <= 64);
         for _ in 0..10 {
             let bits = |rng: &mut Rng| Vec3A::from_array([0; 3].map(|_| f32::from_bits(rng.bits() as u32)));
-            let wild = Ray { t_max: f32::from_bits(rng.bits() as u32), ..Ray::new(bits(&mut rng), bits(&mut rng)) };
+            let wild =
+                Ray { t_max: f32::from_bits(rng.bits() as u32), ..Ray::new(bits(&mut rng), bits(&mut rng)) };
             // Whatever comes out, it comes out; sane rays agree with the oracle.
             let _ = (accel.intersect(&wild), oracle.intersect(&wild));
             let ray = Ray::new(rng.direction() * rng.magnitude(-10.0, 10.0), rng.direction());

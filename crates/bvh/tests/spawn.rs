@@ -110,7 +110,14 @@ fn no_triangle_is_hit_by_its_own_rays_at_length() {
 }
 
 /// Rays that leave a convex body on the outside, from random points of it.
-fn leaves_convex(rng: &mut Rng, world: &World, accel: &TreeAccel, rays: usize, center: Vec3A, reach: f32) -> usize {
+fn leaves_convex(
+    rng: &mut Rng,
+    world: &World,
+    accel: &TreeAccel,
+    rays: usize,
+    center: Vec3A,
+    reach: f32,
+) -> usize {
     let mut count = 0;
     for _ in 0..rays {
         let from = center + rng.direction() * (3.0 * reach);
@@ -214,7 +221,11 @@ fn walls_four_ulp_apart_hold() {
                     continue;
                 }
                 let found = accel.intersect(&surface.origin().ray(d, 0.0));
-                assert_eq!(found.map(|h| h.geom), Some(1 - wall), "axis {axis} at {place}: {surface:?} {d:?}");
+                assert_eq!(
+                    found.map(|h| h.geom),
+                    Some(1 - wall),
+                    "axis {axis} at {place}: {surface:?} {d:?}"
+                );
             }
         }
     }

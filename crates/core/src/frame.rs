@@ -29,9 +29,10 @@ impl Frame {
     /// The frame around a unit normal whose x axis follows `tangent` as far as orthogonality allows; falls back to
     /// [`Frame::from_normal`] where the tangent is zero or parallel to the normal.
     pub fn from_normal_tangent(n: Vec3A, tangent: Vec3A) -> Self {
+        let Some(tangent) = crate::vector::try_normalize(tangent) else { return Self::from_normal(n) };
         let t = tangent - n * n.dot(tangent);
-        // Against the tangent's own length: what is left of a parallel one is rounding.
-        if t.dot(t) <= 1e-8 * tangent.dot(tangent) {
+        // What is left of a parallel tangent is rounding.
+        if t.dot(t) <= 1e-8 {
             return Self::from_normal(n);
         }
         match crate::vector::try_normalize(t) {

@@ -1,6 +1,7 @@
 //! Exact signs (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric predicates").
 
 use etendue_core::Vec3A;
+use etendue_core::glam::DVec3;
 
 /// Rounding error of `a + b = s` (Knuth): `s + error` is exact.
 #[inline]
@@ -20,6 +21,19 @@ pub(crate) fn two_product_error(a: f64, b: f64, p: f64) -> f64 {
     let (ah, bh) = (high(a), high(b));
     let (al, bl) = (a - ah, b - bh);
     al * bl - (((p - ah * bh) - al * bh) - ah * bl)
+}
+
+/// `|v|² − r²` to nearly the last digit, however close to each other the two squares are (Ogita, Rump & Oishi 2005,
+/// "Accurate sum and dot product", Dot2).
+pub(crate) fn squared_distance_beyond(v: DVec3, r: f64) -> f64 {
+    let (mut sum, mut rest) = (0.0f64, 0.0);
+    for (a, b) in [(v.x, v.x), (-r, r), (v.y, v.y), (v.z, v.z)] {
+        let p = a * b;
+        let s = sum + p;
+        rest += two_sum_error(sum, p, s) + two_product_error(a, b, p);
+        sum = s;
+    }
+    sum + rest
 }
 
 /// Whether the six terms cancel exactly.

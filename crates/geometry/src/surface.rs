@@ -103,7 +103,9 @@ impl Surface {
         self.ng = transform.normal(self.ng);
         self.dpdu = transform.vector(self.dpdu);
         self.dpdv = transform.vector(self.dpdv);
+        // Two normals less than a right angle apart may be mapped to more than one.
         let ns = transform.normal(self.shading.z);
+        let ns = if ns.dot(self.ng) < 0.0 { -ns } else { ns };
         self.shading = Frame::from_normal_tangent(ns, transform.vector(self.shading.x));
         self
     }

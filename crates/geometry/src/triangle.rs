@@ -56,7 +56,15 @@ impl TriangleRay {
         let axis = vector::max_axis(ray.d.abs());
         let [x, y, z] = permuted(d, axis);
         let inverse = DVec3::new(1.0 / d.x, 1.0 / d.y, 1.0 / d.z);
-        Self { origin: wide(ray.o), direction: d, inverse, axis, shear_x: x / z, shear_y: y / z, inverse_z: 1.0 / z }
+        Self {
+            origin: wide(ray.o),
+            direction: d,
+            inverse,
+            axis,
+            shear_x: x / z,
+            shear_y: y / z,
+            inverse_z: 1.0 / z,
+        }
     }
 
     /// The intersection with the triangle's plane where it lies inside of the triangle, on either side of the

@@ -51,9 +51,11 @@ fn unit_square_has_the_tabulated_irradiance() {
         irradiance(&ceiling_mesh(h), &at, 300_000, i as u64).check(e, &format!("mesh, {what}"));
         let rectangle = ParallelogramLight::new(ceiling(h), ONE);
         irradiance(&rectangle, &at, 300_000, 100 + i as u64).check(e, &format!("rectangle, {what}"));
-        let shape = ShapeLight::new(Arc::new(ceiling(h)), None, ONE, false);
-        let n = if h < 0.2 { 12_000_000 } else { 2_000_000 };
-        irradiance(&shape, &at, n, 200 + i as u64).check(e, &format!("by area, {what}"));
+        // By area the nearest square would take 10 million samples.
+        if h > 0.2 {
+            let shape = ShapeLight::new(Arc::new(ceiling(h)), None, ONE, false);
+            irradiance(&shape, &at, 2_000_000, 200 + i as u64).check(e, &format!("by area, {what}"));
+        }
     }
 }
 

@@ -72,7 +72,8 @@ impl Material for RoughGlass {
         let mut needs = Needs::TRANSMISSION | parameter::scalar_needs(&self.roughness);
         // A weak interface is a delta at any roughness; which, the BSDF decides.
         let smooth_somewhere = Ggx::from_roughness(self.roughness.min()).is_smooth();
-        needs.set(Needs::DELTA, smooth_somewhere || !((self.eta - 1.0).abs() > 0.1));
+        let strong = (self.eta - 1.0).abs() > 0.1;
+        needs.set(Needs::DELTA, smooth_somewhere || !strong);
         needs
     }
 

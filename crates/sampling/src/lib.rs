@@ -49,4 +49,5 @@ pub use independent::Independent;
 pub use rng::pcg32;
 pub use sampler::{BounceDraws, Sampler, unit_f32};
 pub use sobol::Sobol;
+pub use stats::Moments;
 pub use stratified::Stratified;

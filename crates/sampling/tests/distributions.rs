@@ -55,6 +55,32 @@ fn one_dimension_draws_its_density() {
     assert_eq!(d.pmf(usize::MAX), 0.0);
 }
 
+/// The guide must not change what a plain search over all sums finds.
+#[test]
+fn guided_search_equals_full_search() {
+    for n in [1usize, 2, 3, 4, 5, 8, 31, 64, 1000] {
+        let weights: Vec<f32> =
+            (0..n as u64).map(|i| if i % 3 == 1 { 0.0 } else { unit(i + n as u64).powi(6) + 1e-6 }).collect();
+        let d = Distribution1d::new(weights.iter().copied()).unwrap();
+        let mut sums = vec![0.0];
+        weights.iter().for_each(|&w| sums.push(sums[sums.len() - 1] + f64::from(w)));
+        let borders = (0..1024).flat_map(|i| {
+            let u = f64::from(i) / 1024.0;
+            [u, u.next_up(), u.next_down().max(0.0)]
+        });
+        let knots = sums.iter().flat_map(|s| {
+            let u = s / d.total();
+            [u, u.next_up(), u.next_down()]
+        });
+        for u in borders.chain(knots).filter(|u| (0.0..1.0).contains(u)) {
+            let full = sums.partition_point(|&s| s <= u * d.total()) - 1;
+            if full < n {
+                assert_eq!(d.sample(u).index, full, "{n} weights, u = {u}");
+            }
+        }
+    }
+}
+
 #[test]
 fn one_dimension_keeps_small_bins_among_many() {
     // Ten million equal bins: single-precision sums would stall.

@@ -43,7 +43,8 @@ impl Wrap {
     #[inline]
     fn reduce(self, x: f32) -> f32 {
         // Beyond 2²³ there is no fraction left; what is not a number is put at 0.
-        if !(x.abs() < 8_388_608.0) {
+        let has_fraction = x.abs() < 8_388_608.0;
+        if !has_fraction {
             return if x > 0.0 && matches!(self, Self::Clamp) { 2.0 } else { 0.0 };
         }
         match self {

@@ -182,3 +182,109 @@ impl Tree {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use etendue_core::{Ray, Vec3A};
+
+    use super::*;
+
+    fn meets(b: &Aabb, ray: &Ray) -> bool {
+        let mut node = Node::EMPTY;
+        node.set(2, b, Child::leaf(0, 1));
+        let Met { mask, .. } = node.enter(&BoxRay::new(ray), ray.t_max);
+        assert_eq!(mask & !4, 0, "an empty place was met");
+        mask != 0
+    }
+
+    fn bits(state: &mut u64) -> u64 {
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        *state >> 33
+    }
+
+    #[test]
+    fn a_ray_from_the_border_meets_the_box() {
+        // Boxes with 0 to 3 extents of zero; origins on every face, edge and corner; all 26 directions, both zeros.
+        let places = [-1.0f32, -0.0, 0.0, 1.0];
+        let mut count = 0;
+        for flat in 0..8 {
+            let hi = |axis: usize| if flat >> axis & 1 == 1 { 1.0 } else { 3.0 };
+            let b = Aabb { lo: Vec3A::ONE, hi: Vec3A::new(hi(0), hi(1), hi(2)) };
+            for corner in 0..27 {
+                let at = |axis: usize, k: usize| match k % 3 {
+                    0 => 1.0,
+                    1 => hi(axis),
+                    _ => 0.5 * (1.0 + hi(axis)),
+                };
+                let o = Vec3A::new(at(0, corner), at(1, corner / 3), at(2, corner / 9));
+                for d in 0..64 {
+                    let d = Vec3A::new(places[d % 4], places[d / 4 % 4], places[d / 16]);
+                    if d != Vec3A::ZERO {
+                        assert!(meets(&b, &Ray::new(o, d)), "{o} {d} {b:?}");
+                        count += 1;
+                    }
+                }
+            }
+        }
+        assert_eq!(count, 8 * 27 * (64 - 8));
+    }
+
+    #[test]
+    fn parallel_rays_outside_miss() {
+        let b = Aabb { lo: Vec3A::ZERO, hi: Vec3A::ONE };
+        for zero in [0.0, -0.0] {
+            let d = Vec3A::new(zero, zero, 1.0);
+            assert!(!meets(&b, &Ray::new(Vec3A::new(1.0f32.next_up(), 0.5, -1.0), d)));
+            assert!(!meets(&b, &Ray::new(Vec3A::new(0.5, -1e-30, -1.0), d)));
+            assert!(meets(&b, &Ray::new(Vec3A::new(1.0, 0.0, -1.0), d)));
+            assert!(!meets(&b, &Ray::new(Vec3A::new(0.5, 0.5, 2.0), d)));
+        }
+    }
+
+    /// The test without the slack on the far side; what it loses shows that rays below are hard enough.
+    fn plain(b: &Aabb, ray: &Ray) -> bool {
+        let inverse = Vec3A::ONE / ray.d;
+        let (t0, t1) = ((b.lo - ray.o) * inverse, (b.hi - ray.o) * inverse);
+        let (mut near, mut far) = (ray.t_min, ray.t_max);
+        for i in 0..3 {
+            let (n, f) = if t0[i] < t1[i] { (t0[i], t1[i]) } else { (t1[i], t0[i]) };
+            near = if n > near { n } else { near };
+            far = if f < far { f } else { far };
+        }
+        near <= far
+    }
+
+    #[test]
+    fn flat_boxes_are_not_lost() {
+        let mut state = 7;
+        let mut unit = || (bits(&mut state) & 0xff_ffff) as f32 / (1 << 24) as f32;
+        let mut lost_by_plain = 0;
+        let mut met = 0;
+        for i in 0..400_000 {
+            // A box without thickness far from the origin, and a ray that passes its border closely.
+            let axis = i % 3;
+            let lo = Vec3A::splat(1000.0) + Vec3A::new(unit(), unit(), unit());
+            let mut hi = lo + Vec3A::new(unit(), unit(), unit());
+            hi[axis] = lo[axis];
+            let b = Aabb { lo, hi };
+            let mut p = lo + (hi - lo) * Vec3A::new(unit(), unit(), unit());
+            p[(axis + 1) % 3] = hi[(axis + 1) % 3];
+            let o = p - Vec3A::new(unit() - 0.5, unit() - 0.5, unit() - 0.5) * 10.0;
+            let d = p - o;
+            let ray = Ray::new(o, d * (0.3 + unit()));
+            // The truth, in double precision with a margin for its own rounding.
+            let t = (f64::from(lo[axis]) - f64::from(o[axis])) / f64::from(ray.d[axis]);
+            let inside = (0..3).all(|k| {
+                let x = f64::from(o[k]) + t * f64::from(ray.d[k]);
+                k == axis || (x > f64::from(lo[k]) + 1e-11 && x < f64::from(hi[k]) - 1e-11)
+            });
+            if inside && t > 0.0 {
+                assert!(meets(&b, &ray), "{ray:?} {b:?}");
+                lost_by_plain += usize::from(!plain(&b, &ray));
+                met += 1;
+            }
+        }
+        assert!(met > 50_000, "only {met} rays meet their box");
+        assert!(lost_by_plain > 0, "no ray was hard enough to tell the tests apart");
+    }
+}

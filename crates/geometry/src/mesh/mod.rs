@@ -8,6 +8,7 @@ pub use attributes::AlphaAttributes;
 pub use report::MeshReport;
 
 use etendue_core::{Aabb, Fingerprint, Vec2, Vec3, Vec3A, Vec4};
+use etendue_sampling::warp;
 
 use crate::double::wide;
 use crate::{MeshError, ShapeSample};
@@ -108,17 +109,9 @@ impl TriangleMesh {
         self.bounds
     }
 
-    /// A point uniform over the area of one triangle (Heitz 2019, "A low-distortion map between triangle and
-    /// square"); `None` where the triangle has no area in single precision.
+    /// A point uniform over the area of one triangle; `None` where it has no area in single precision.
     pub fn sample(&self, prim: u32, u: Vec2) -> Option<ShapeSample> {
-        let (b0, b1) = if u.y > u.x {
-            let half = 0.5 * u.x;
-            (half, u.y - half)
-        } else {
-            let half = 0.5 * u.y;
-            (u.x - half, half)
-        };
-        let uv = Vec2::new(b1, 1.0 - b0 - b1);
+        let uv = warp::triangle(u);
         let pdf_area = (2.0 / self.doubled_area(prim)) as f32;
         let at = self.point(prim, uv);
         let ng = self.normal(prim)?;

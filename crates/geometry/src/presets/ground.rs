@@ -34,7 +34,7 @@ pub fn terrain(n: u32, seed: u32) -> TriangleMesh {
     for j in 0..=n {
         for i in 0..=n {
             positions.push(grid_point(n, seed, i, j));
-            uv.push(Vec2::new(i as f32 / n as f32, j as f32 / n as f32));
+            uv.push(Vec2::new(i as f32 / n as f32, 1.0 - j as f32 / n as f32));
         }
     }
     let mut indices = Vec::new();
@@ -53,7 +53,7 @@ fn push_grid(indices: &mut Vec<[u32; 3]>, n: u32, at: impl Fn(u32, u32) -> u32) 
     }
 }
 
-/// A closed block of `2 n² + 10 n - 2` or so triangles whose top is the landscape of [`terrain`]; it reaches down to
+/// A closed block of `2 n² + 12 n` triangles whose top is the landscape of [`terrain`]; it reaches down to
 /// y = −1.
 pub fn block(n: u32, seed: u32) -> TriangleMesh {
     let n = n.clamp(1, 8192);

@@ -115,7 +115,7 @@ pub fn uv_sphere(segments: u32, rings: u32, radius: f32) -> TriangleMesh {
         };
         for i in 0..=segments {
             let (s, c) = math::sin_cos(TAU * (i % segments) as f32 / segments as f32);
-            let n = Vec3::new(sin * c, cos, sin * s);
+            let n = Vec3::new(sin * c, cos, -sin * s);
             l.positions.push(n * radius);
             l.normals.push(n);
             l.uv.push(Vec2::new(i as f32 / segments as f32, j as f32 / rings as f32));
@@ -127,10 +127,10 @@ pub fn uv_sphere(segments: u32, rings: u32, radius: f32) -> TriangleMesh {
         for i in 0..segments {
             let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
             if j > 0 {
-                indices.push([a, d, b]);
+                indices.push([a, b, d]);
             }
             if j + 1 < rings {
-                indices.push([a, c, d]);
+                indices.push([a, d, c]);
             }
         }
     }
@@ -145,8 +145,8 @@ pub fn torus(major: f32, minor: f32, around: u32, across: u32) -> TriangleMesh {
         let (sin, cos) = math::sin_cos(TAU * (j % across) as f32 / across as f32);
         for i in 0..=around {
             let (s, c) = math::sin_cos(TAU * (i % around) as f32 / around as f32);
-            let n = Vec3::new(cos * c, sin, cos * s);
-            l.positions.push(Vec3::new(c, 0.0, s) * major + n * minor);
+            let n = Vec3::new(cos * c, sin, -cos * s);
+            l.positions.push(Vec3::new(c, 0.0, -s) * major + n * minor);
             l.normals.push(n);
             l.uv.push(Vec2::new(i as f32 / around as f32, j as f32 / across as f32));
         }
@@ -156,8 +156,8 @@ pub fn torus(major: f32, minor: f32, around: u32, across: u32) -> TriangleMesh {
     for j in 0..across {
         for i in 0..around {
             let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
-            indices.push([a, d, b]);
-            indices.push([a, c, d]);
+            indices.push([a, b, d]);
+            indices.push([a, d, c]);
         }
     }
     assembled(l.positions, indices, l.normals, l.uv)

@@ -2,12 +2,14 @@ use std::f64::consts::{PI, TAU};
 
 use etendue_core::glam::DVec3;
 use etendue_core::{Aabb, Fingerprint, Frame, Ray, Vec2, Vec3A, math};
+use etendue_sampling::warp;
 
 use crate::double::{largest, narrow, rounded, wide};
+use crate::exact::squared_distance_beyond;
 use crate::{Shape, ShapeError, ShapeHit, ShapeSample, Surface};
 
-/// A sphere. Its front side is the outside. The pole is +Y; `uv` is (azimuth from +X toward +Z over 2π, angle from −Y
-/// over π).
+/// A sphere. Its front side is the outside. The pole is +Y; `uv` is (azimuth from +X toward −Z over 2π, angle from −Y
+/// over π), so that an image on it reads rightly from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     center: Vec3A,
@@ -51,9 +53,10 @@ impl Sphere {
     }
 
     fn parameters(n: DVec3) -> Vec2 {
-        let azimuth = f64::from(math::atan2(n.z as f32, n.x as f32)) / TAU;
+        let azimuth = f64::from(math::atan2(-n.z as f32, n.x as f32)) / TAU;
         let azimuth = if azimuth < 0.0 { azimuth + 1.0 } else { azimuth };
-        Vec2::new(azimuth as f32, (1.0 - f64::from(math::acos(n.y as f32)) / PI) as f32)
+        let from_pole = math::atan2((n.x * n.x + n.z * n.z).sqrt() as f32, n.y as f32);
+        Vec2::new(azimuth as f32, (1.0 - f64::from(from_pole) / PI) as f32)
     }
 
     fn reach(&self) -> f64 {
@@ -70,6 +73,8 @@ impl Shape for Sphere {
 
     /// The discriminant comes from the distance of the centre to the ray and the roots from the sum without
     /// cancellation (Haines, Günther & Akenine-Möller 2019, "Precision improvements for ray/sphere intersection").
+    /// Their product is the power of the origin, which is computed with twice the digits: close to the surface it is
+    /// a small difference of large squares.
     fn intersect(&self, ray: &Ray) -> Option<ShapeHit> {
         let (d, r) = (wide(ray.d), f64::from(self.radius));
         let f = wide(ray.o) - wide(self.center);
@@ -83,8 +88,7 @@ impl Shape for Sphere {
         }
         let root = (a * discriminant).sqrt();
         let q = if b < 0.0 { b - root } else { b + root };
-        let distance = f.dot(f).sqrt();
-        let c = (distance - r) * (distance + r);
+        let c = squared_distance_beyond(f, r);
         let (t0, t1) = (c / q, q / a);
         let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
         let t = [near, far].into_iter().map(|t| t as f32).find(|&t| ray.accepts(t))?;
@@ -102,7 +106,7 @@ impl Shape for Sphere {
         let s = ((n.x * n.x + n.z * n.z).sqrt()) as f32;
         if s > 0.0 {
             let (tau, pi) = (TAU as f32, PI as f32);
-            surface.dpdu = Vec3A::new(-ng.z, 0.0, ng.x) * (tau * r);
+            surface.dpdu = Vec3A::new(ng.z, 0.0, -ng.x) * (tau * r);
             surface.dpdv = Vec3A::new(-ng.x * ng.y / s, s, -ng.z * ng.y / s) * (pi * r);
             surface.shading = Frame::from_normal_tangent(ng, surface.dpdu);
         }
@@ -113,12 +117,9 @@ impl Shape for Sphere {
         (2.0 * TAU * f64::from(self.radius) * f64::from(self.radius)) as f32
     }
 
-    /// Uniform over the area (Archimedes: the height is uniform).
+    /// Uniform over the area.
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {
-        let y = 1.0 - 2.0 * f64::from(u.y);
-        let s = (1.0 - y * y).max(0.0).sqrt();
-        let (sin, cos) = math::sin_cos(std::f32::consts::TAU * u.x);
-        let n = DVec3::new(s * f64::from(cos), y, s * f64::from(sin));
+        let n = wide(warp::sphere(u));
         let n = n / n.dot(n).sqrt();
         let at = rounded(wide(self.center) + n * f64::from(self.radius), self.reach());
         let pdf_area = 1.0 / self.area();

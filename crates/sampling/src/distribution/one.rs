@@ -1,4 +1,6 @@
-use super::{DistributionError, Found, checked_total, find, interval, kept, position, push_sums};
+use super::{
+    DistributionError, Found, checked_total, find, guide_len, interval, kept, position, push_guide, push_sums,
+};
 use crate::remap::clamp_unit;
 
 /// A piecewise constant density on [0, 1): `n` equal intervals with given weights.
@@ -16,6 +18,7 @@ use crate::remap::clamp_unit;
 pub struct Distribution1d {
     /// Prefix sums: n + 1 values from 0 to the total.
     sums: Vec<f64>,
+    guide: Vec<u32>,
     total: f64,
 }
 
@@ -44,7 +47,9 @@ impl Distribution1d {
         let total = checked_total(weights.iter().copied())?;
         let mut sums = Vec::with_capacity(weights.len() + 1);
         let total = push_sums(&mut sums, weights.iter().map(|&w| kept(w, total)));
-        Ok(Self { sums, total })
+        let mut guide = Vec::with_capacity(guide_len(weights.len()));
+        push_guide(&mut guide, &sums);
+        Ok(Self { sums, guide, total })
     }
 
     /// Number of intervals.
@@ -102,7 +107,7 @@ impl Distribution1d {
     /// The interval that `u` falls into.
     #[inline]
     fn invert(&self, u: f64) -> Found {
-        find(&self.sums, u * self.total).unwrap_or_else(|| {
+        find(&self.sums, &self.guide, u).unwrap_or_else(|| {
             // Only where the caller's number was not in [0, 1): the end of the last interval that has width.
             let index = self.sums.partition_point(|&s| s < self.total).saturating_sub(1);
             Found { index, width: self.total - self.sums.get(index).copied().unwrap_or(0.0), within: 1.0 }

@@ -1,6 +1,9 @@
 use etendue_core::{UVec2, Vec2};
 
-use super::{Distribution1d, DistributionError, checked_total, find, interval, kept, position, push_sums};
+use super::{
+    Distribution1d, DistributionError, checked_total, find, guide_len, interval, kept, position, push_guide,
+    push_sums,
+};
 use crate::remap::clamp_unit;
 
 /// A piecewise constant density on [0, 1)²: `width × height` equal cells with given weights, row by row from y = 0.
@@ -13,6 +16,8 @@ pub struct Distribution2d {
     height: usize,
     /// Prefix sums within each row, `width + 1` values a row.
     sums: Vec<f64>,
+    /// Guides of each row, `guide_len(width)` entries a row.
+    guides: Vec<u32>,
     rows: Distribution1d,
     /// Density per weight: cells over total.
     scale: f64,
@@ -49,11 +54,16 @@ impl Distribution2d {
         }
         let total = checked_total(weights.iter().map(|&w| w.into()))?;
         let mut sums = Vec::with_capacity((width + 1) * height);
-        let row_total = |row: &[W]| push_sums(&mut sums, row.iter().map(|&w| kept(w.into(), total)));
-        let totals: Vec<f64> = weights.chunks_exact(width).map(row_total).collect();
+        let mut guides = Vec::with_capacity(guide_len(width) * height);
+        let mut totals = Vec::with_capacity(height);
+        for row in weights.chunks_exact(width) {
+            let start = sums.len();
+            totals.push(push_sums(&mut sums, row.iter().map(|&w| kept(w.into(), total))));
+            push_guide(&mut guides, &sums[start..]);
+        }
         let rows = Distribution1d::new(totals)?;
         let scale = weights.len() as f64 / rows.total();
-        Ok(Self { width, height, sums, rows, scale })
+        Ok(Self { width, height, sums, guides, rows, scale })
     }
 
     /// Columns.
@@ -87,7 +97,9 @@ impl Distribution2d {
         let row = self.rows.sample(u.y);
         let start = row.index * (self.width + 1);
         let sums = self.sums.get(start..start + self.width + 1)?;
-        let found = find(sums, f64::from(u.x) * sums.last()?)?;
+        let entries = guide_len(self.width);
+        let guide = self.guides.get(row.index * entries..(row.index + 1) * entries)?;
+        let found = find(sums, guide, f64::from(u.x))?;
         Some(Sample2d {
             p: Vec2::new(position(found.index, found.within, self.width), row.x),
             pdf: (found.width * self.scale) as f32,

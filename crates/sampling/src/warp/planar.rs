@@ -18,6 +18,7 @@ pub(super) fn disc_and_radius(u: Vec2) -> (Vec2, f32) {
     const HALF_CELL: f32 = 1.0 / 16_777_216.0;
     let a = (2.0 * u.x - 1.0) + HALF_CELL;
     let b = (2.0 * u.y - 1.0) + HALF_CELL;
+    // The longer coordinate is the radius.
     let across = a.abs() > b.abs();
     let (r, other) = if across { (a, b) } else { (b, a) };
     if r == 0.0 {
