@@ -317,3 +317,23 @@ fn few_spawned_rays_cross_a_wedge() {
 fn few_spawned_rays_cross_a_wedge_at_length() {
     few_rays_cross_a_wedge(1_000_000);
 }
+
+#[test]
+fn without_the_offset_rays_would_hit_where_they_started() {
+    // What the tests above are worth: the same rays from the unmoved point.
+    let mut rng = Rng(26);
+    let (mut again, mut total) = (0, 0);
+    for _ in 0..2000 {
+        let v: [Vec3; 3] = std::array::from_fn(|_| Vec3::from(wild_point(&mut rng)));
+        let mut world = World::default();
+        world.add(TriangleMesh::new(v.to_vec(), vec![[0, 1, 2]]).unwrap());
+        let accel = BruteForce::build(&world).unwrap();
+        let hit = Hit { t: 1.0, uv: weights(&mut rng), inst: Hit::NO_INSTANCE, geom: 0, prim: 0 };
+        let surface = world.surface(&Ray::new(Vec3A::ZERO, Vec3A::X), &hit);
+        let ray = Ray::new(surface.p, leaving(&mut rng, surface.ng));
+        again += usize::from(accel.occluded(&ray));
+        total += 1;
+    }
+    println!("{again} of {total} hit again");
+    assert!(again * 5 > total, "{again} of {total}");
+}

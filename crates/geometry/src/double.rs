@@ -48,3 +48,12 @@ pub(crate) fn direction(v: DVec3) -> Option<Vec3A> {
     let l = v.dot(v).sqrt();
     (l > 0.0 && l.is_finite()).then(|| narrow(v / l))
 }
+
+/// How much more than for a square what two edges span loses in double precision: the product of their lengths over
+/// the area between them. At least 1; slivers have much.
+#[inline]
+pub(crate) fn loss(e1: DVec3, e2: DVec3) -> f64 {
+    let n = e1.cross(e2);
+    let aspect = (e1.dot(e1) * e2.dot(e2) / n.dot(n)).sqrt() / 16.0;
+    if aspect > 1.0 && aspect.is_finite() { aspect } else { 1.0 }
+}

@@ -165,7 +165,8 @@ fn closed_presets_are_closed_and_face_outward() {
             let key = mesh.triangle(i).map(|v| (v + 0.0).to_array().map(f32::to_bits));
             for k in 0..3 {
                 let (a, b) = (key[k], key[(k + 1) % 3]);
-                *edges.entry(if a < b { [a, b] } else { [b, a] }).or_default() += if a < b { 1 } else { 1000 };
+                *edges.entry(if a < b { [a, b] } else { [b, a] }).or_default() +=
+                    if a < b { 1 } else { 1000 };
             }
         }
         assert!(edges.values().all(|&n| n == 1001), "{name} is not closed");

@@ -19,7 +19,7 @@ pub struct Preset {
 }
 
 /// Radiance of the box's lamp, W·m⁻²·sr⁻¹.
-const LAMP: Spectrum = Spectrum::rgb(17.0, 12.0, 6.5);
+const LAMP: Spectrum = Spectrum::rgb(5.2, 4.4, 3.2);
 
 /// The walls of a box one metre wide with a lamp in its ceiling, open toward the camera (after Goral et al. 1984).
 pub fn empty_cornell_box() -> Preset {
@@ -42,7 +42,7 @@ pub fn empty_cornell_box() -> Preset {
     wall(corner, x, y, white);
     wall(corner, y, z, red);
     wall(corner + x, z, y, green);
-    let opening = wall(Vec3A::new(-0.13, 0.999, -0.11), x * 0.26, z * 0.22, lamp);
+    let opening = wall(Vec3A::new(-0.25, 0.999, -0.22), x * 0.5, z * 0.44, lamp);
     if let Some(opening) = opening {
         b.emit(opening, Emission::new(LAMP));
     }

@@ -3,7 +3,7 @@ use etendue_core::{Frame, Vec2, Vec3A, vector};
 
 use super::TriangleMesh;
 use crate::Surface;
-use crate::double::{Rounded, direction, largest, narrow, rounded, wide};
+use crate::double::{Rounded, direction, largest, loss, narrow, rounded, wide};
 
 /// How the position changes with the first set of texture coordinates.
 #[derive(Clone, Copy)]
@@ -61,12 +61,8 @@ impl TriangleMesh {
         let [ra, rb, rc] = [a, b, c].map(largest);
         let reach = if ra > rb { ra } else { rb };
         let reach = if reach > rc { reach } else { rc };
-        // What the intersection test loses in double precision grows with the aspect of the triangle: the product of
-        // the edges over twice the area.
-        let (e1, e2) = (b - a, c - a);
-        let n = e1.cross(e2);
-        let aspect = (e1.dot(e1) * e2.dot(e2) / n.dot(n)).sqrt() / 16.0;
-        rounded(p, if aspect > 1.0 && aspect.is_finite() { reach * aspect } else { reach })
+        // The intersection test must not take the point for one on the other side.
+        rounded(p, reach * loss(b - a, c - a))
     }
 
     fn shading_normal(&self, prim: u32, uv: Vec2, ng: Vec3A) -> Vec3A {

@@ -1,7 +1,7 @@
 use etendue_core::glam::DVec3;
 use etendue_core::{Aabb, Fingerprint, Frame, Ray, Vec2, Vec3A};
 
-use crate::double::{direction, largest, rounded, wide};
+use crate::double::{Rounded, direction, largest, loss, rounded, wide};
 use crate::triangle::TriangleRay;
 use crate::{Shape, ShapeError, ShapeHit, ShapeSample, Surface};
 
@@ -57,10 +57,10 @@ impl Parallelogram {
         [o, o + u, o + u + v, o + v]
     }
 
-    fn point(&self, uv: Vec2) -> crate::double::Rounded {
+    fn point(&self, uv: Vec2) -> Rounded {
         let (o, u, v) = (wide(self.origin), wide(self.edge_u), wide(self.edge_v));
         let p = o + u * f64::from(uv.x) + v * f64::from(uv.y);
-        rounded(p, largest(o) + largest(u) + largest(v))
+        rounded(p, (largest(o) + largest(u) + largest(v)) * loss(u, v))
     }
 }
 
