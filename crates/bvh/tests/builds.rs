@@ -34,7 +34,7 @@ fn from_triangles(triangles: impl Iterator<Item = [Vec3; 3]>) -> TriangleMesh {
 }
 
 fn small_triangle(at: Vec3, size: f32) -> [Vec3; 3] {
-    [at, at + Vec3::X * size, at + Vec3::Y * size]
+    [at, at + Vec3::Z * size, at + Vec3::Y * size]
 }
 
 /// Everything that made some builder slow or deep.

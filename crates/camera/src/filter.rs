@@ -58,7 +58,9 @@ impl Filter {
             Self::Mitchell { radius, b, c } => {
                 let x = 2.0 * a / radius;
                 if x < 1.0 {
-                    ((12.0 - 9.0 * b - 6.0 * c) * x * x * x + (-18.0 + 12.0 * b + 6.0 * c) * x * x + (6.0 - 2.0 * b))
+                    ((12.0 - 9.0 * b - 6.0 * c) * x * x * x
+                        + (-18.0 + 12.0 * b + 6.0 * c) * x * x
+                        + (6.0 - 2.0 * b))
                         / 6.0
                 } else if x < 2.0 {
                     ((-b - 6.0 * c) * x * x * x
@@ -127,8 +129,8 @@ pub struct FilterSampler {
     filter: Filter,
     /// Cumulated |filter| over `CELLS` equal cells of one axis, from 0 to 1; empty for the analytic filters.
     cdf: Vec<f64>,
-    /// ∫|f| / ∫f along one axis.
-    scale: f64,
+    /// Weight of each cell: the filter's sign times ∫|f| / ∫f along one axis.
+    weights: Vec<f32>,
 }
 
 impl FilterSampler {
@@ -141,22 +143,26 @@ impl FilterSampler {
         };
         let filter = if ok { filter } else { Filter::BOX };
         if matches!(filter, Filter::Box { .. } | Filter::Tent { .. }) {
-            return Self { filter, cdf: Vec::new(), scale: 1.0 };
+            return Self { filter, cdf: Vec::new(), weights: Vec::new() };
         }
-        let (mut cdf, mut sum, mut signed) = (vec![0.0], 0.0, 0.0);
+        let (mut cdf, mut weights, mut sum, mut signed) = (vec![0.0], Vec::new(), 0.0, 0.0);
         for i in 0..CELLS {
             let v = f64::from(filter.value(Self::cell_center(&filter, i)));
             sum += v.abs();
             signed += v;
             cdf.push(sum);
+            weights.push(if v < 0.0 { -1.0 } else { 1.0 });
         }
         if !(sum > 0.0 && signed > 0.0) {
-            return Self { filter: Filter::BOX, cdf: Vec::new(), scale: 1.0 };
+            return Self { filter: Filter::BOX, cdf: Vec::new(), weights: Vec::new() };
         }
         for c in &mut cdf {
             *c /= sum;
         }
-        Self { filter, cdf, scale: sum / signed }
+        for w in &mut weights {
+            *w *= (sum / signed) as f32;
+        }
+        Self { filter, cdf, weights }
     }
 
     fn cell_center(filter: &Filter, i: usize) -> f32 {
@@ -192,10 +198,8 @@ impl FilterSampler {
                 let (lo, hi) = (self.cdf[i], self.cdf[i + 1]);
                 let within = if hi > lo { (u - lo) / (hi - lo) } else { 0.5 };
                 let x = ((i as f64 + within) / CELLS as f64 * 2.0 - 1.0) * f64::from(self.filter.radius());
-                // Within a cell the density is constant: the weight is the sign of the cell times the share of
-                // positive and negative area. The step from cell to cell stands for the filter itself.
-                let sign = if self.filter.value(Self::cell_center(&self.filter, i)) < 0.0 { -1.0 } else { 1.0 };
-                (x as f32, (sign * self.scale) as f32)
+                // Within a cell the density is constant, and so is the weight: the steps stand for the filter.
+                (x as f32, self.weights[i])
             }
         }
     }

@@ -17,7 +17,9 @@ pub enum CameraError {
     #[error("the camera's position and target coincide, or its up vector points along the view")]
     Orientation,
     /// A lens that is no lens.
-    #[error("a lens of radius {radius} focused at {focus} needs a radius >= 0 and a focus distance > 0, both finite")]
+    #[error(
+        "a lens of radius {radius} focused at {focus} needs a radius >= 0 and a focus distance > 0, both finite"
+    )]
     Lens {
         /// Radius asked for, metres.
         radius: f32,

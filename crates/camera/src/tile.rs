@@ -68,16 +68,24 @@ impl Tile {
         self.rect
     }
 
+    /// The pixel's place, or `usize::MAX` outside the rectangle: a neighbour's cell must not be touched by mistake.
+    #[inline]
     fn pixel_index(&self, pixel: UVec2) -> usize {
-        let w = (self.rect.hi.x - self.rect.lo.x) as usize;
-        (pixel.y.wrapping_sub(self.rect.lo.y)) as usize * w + pixel.x.wrapping_sub(self.rect.lo.x) as usize
+        let TileRect { lo, hi } = self.rect;
+        if pixel.x < lo.x || pixel.y < lo.y || pixel.x >= hi.x || pixel.y >= hi.y {
+            return usize::MAX;
+        }
+        (pixel.y - lo.y) as usize * (hi.x - lo.x) as usize + (pixel.x - lo.x) as usize
     }
 
     /// Adds one sample. False where it is not finite or too large: it then counts as black, so that the mean stays
-    /// honest about how many samples were drawn.
+    /// honest about how many samples were drawn. False also outside the rectangle, where nothing is counted.
     #[inline]
     pub fn add(&mut self, pixel: UVec2, replicate: u32, l: Spectrum) -> bool {
-        let cell = self.pixel_index(pixel) * self.replicates as usize + (replicate % self.replicates) as usize;
+        let cell = self
+            .pixel_index(pixel)
+            .saturating_mul(self.replicates as usize)
+            .saturating_add((replicate % self.replicates) as usize);
         let (Some(sum), Some(count)) = (self.sums.get_mut(cell), self.counts.get_mut(cell)) else {
             return false;
         };

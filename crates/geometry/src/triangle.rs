@@ -94,7 +94,7 @@ impl TriangleRay {
             (u.value / det, v_.value / det, w.value / det)
         };
         let t = self.on_plane(v).unwrap_or((wa * a.z + wb * b.z + wc * c.z) * self.inverse_z);
-        let t = self.within_box(t, v) as f32;
+        let t = self.within_box(t, v)? as f32;
         (!t.is_nan()).then_some(TriangleHit { t, uv: Vec2::new(wb as f32, wc as f32) })
     }
 
@@ -115,8 +115,11 @@ impl TriangleRay {
 
     /// `t` moved, by less than its own error, to where the ray is inside of the triangle's box, so that no
     /// conservative box test disagrees with it. Only nearly edge-on triangles are moved at all.
+    ///
+    /// `None` where the ray misses the box: that takes a needle so thin for its length that double precision cannot
+    /// tell its sides apart. Hierarchies would find such a hit or not, depending on their boxes.
     #[inline]
-    fn within_box(&self, t: f64, v: [DVec3; 3]) -> f64 {
+    fn within_box(&self, t: f64, v: [DVec3; 3]) -> Option<f64> {
         let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
         for i in 0..3 {
             let inverse = self.inverse[i];
@@ -129,13 +132,18 @@ impl TriangleRay {
             near = upper(lower(lower(at[0], at[1]), at[2]), near);
             far = lower(upper(upper(at[0], at[1]), at[2]), far);
         }
-        if t > far {
+        // Far above the rounding of this test, far below the slack of the boxes.
+        const SLACK: f64 = 1.0 / (1u64 << 40) as f64;
+        if near > far + far.abs() * SLACK {
+            return None;
+        }
+        Some(if t > far {
             far
         } else if t < near {
             near
         } else {
             t
-        }
+        })
     }
 }
 
@@ -187,5 +195,50 @@ fn on_line(p: &Corner, q: &Corner, l: f64, r: f64) -> Option<i8> {
         Some(sign(q.x, p.x))
     } else {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn corner(x: f64, y: f64) -> Corner {
+        Corner { x, y, z: 1.0 }
+    }
+
+    #[test]
+    fn edge_signs_are_exact_and_antisymmetric() {
+        let e = f64::EPSILON;
+        // (1 + e)(1 - e) and 1 round to the same number and differ.
+        let (p, q) = (corner(1.0 + e, 1.0), corner(1.0, 1.0 - e));
+        assert_eq!(p.x * q.y, p.y * q.x);
+        assert_eq!(edge(&p, &q).map(|e| e.sign), Some(-1));
+        assert_eq!(edge(&q, &p).map(|e| e.sign), Some(1));
+        // Through the origin: the step decides, the other way round for the other triangle.
+        for (p, q) in [
+            (corner(-1.0, -1.0), corner(2.0, 2.0)),
+            (corner(-1.0, 0.0), corner(2.0, 0.0)),
+            (corner(0.0, -1.0), corner(0.0, 3.0)),
+            (corner(0.0, 0.0), corner(0.5, 0.25)),
+        ] {
+            let (a, b) = (edge(&p, &q).map(|e| e.sign), edge(&q, &p).map(|e| e.sign));
+            assert!(a.is_some() && a == b.map(|s| -s), "{a:?} {b:?}");
+        }
+        assert!(edge(&corner(1.0, 2.0), &corner(1.0, 2.0)).is_none());
+        assert!(edge(&corner(f64::NAN, 2.0), &corner(1.0, 2.0)).is_none());
+    }
+
+    #[test]
+    fn a_fan_around_the_ray_is_hit_once() {
+        // Exactly through the corner that all triangles of a fan share.
+        let ray = TriangleRay::new(&Ray::new(Vec3A::Z, -Vec3A::Z));
+        for n in 3..20 {
+            let rim = |i: usize| {
+                let (s, c) = etendue_core::math::sin_cos(std::f32::consts::TAU * (i % n) as f32 / n as f32);
+                Vec3A::new(c, s, 0.0)
+            };
+            let hits = (0..n).filter(|&i| ray.intersect([Vec3A::ZERO, rim(i), rim(i + 1)]).is_some()).count();
+            assert_eq!(hits, 1, "fan of {n}");
+        }
     }
 }

@@ -250,7 +250,18 @@ impl PathTracer {
             if let Some(d) = draw
                 && !scatter.eval.is_black()
             {
-                self.add_light(cx, needs, &u, depth, &at, &d, beta * scatter.eval, scatter.pdf, &mut out, rec);
+                self.add_light(
+                    cx,
+                    needs,
+                    &u,
+                    depth,
+                    &at,
+                    &d,
+                    beta * scatter.eval,
+                    scatter.pdf,
+                    &mut out,
+                    rec,
+                );
             }
 
             let Some(sample) = scatter.sample else { return out };

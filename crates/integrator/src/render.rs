@@ -7,7 +7,8 @@ use etendue_sampling::{Dim, Sampler};
 use etendue_scene::Scene;
 
 use crate::{
-    Context, Counts, Ended, FirstHitRecorder, Integrator, Recorder, Rejected, RenderError, RenderOptions, Report,
+    Context, Counts, Ended, FirstHitRecorder, Integrator, Recorder, Rejected, RenderError, RenderOptions,
+    Report,
 };
 
 /// Samples of one pixel handed to the integrator at a time.
@@ -141,7 +142,8 @@ pub fn render<S: Sampler>(
     let size = film.size();
     let (replicates, planes) = (film.replicates(), film.planes());
     let indices = options.samples.clone().unwrap_or(0..u64::from(sampler.spp()));
-    let total = indices.end.saturating_sub(indices.start) * u64::from(size.x) * u64::from(size.y);
+    let pixels = u64::from(size.x) * u64::from(size.y);
+    let total = indices.end.saturating_sub(indices.start).saturating_mul(pixels);
     let tiles = TileRect::split(size, options.tile);
 
     let done = AtomicU64::new(0);

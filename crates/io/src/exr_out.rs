@@ -3,8 +3,8 @@ use std::path::Path;
 use etendue_camera::Film;
 use etendue_core::UVec2;
 use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec, Text,
-    WritableImage,
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec,
+    Text, WritableImage,
 };
 
 use crate::{WriteError, write_atomically};

@@ -20,12 +20,12 @@
 //! polygons are split as fans. Uses scene, camera, material, light, texture, bsdf, geometry and core.
 
 mod atomic;
+#[cfg(feature = "exr")]
+mod exr_out;
 pub mod fallback;
 mod limits;
 #[cfg(feature = "obj")]
 pub mod obj;
-#[cfg(feature = "exr")]
-mod exr_out;
 #[cfg(feature = "png")]
 mod png;
 mod resolver;

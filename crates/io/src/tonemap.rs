@@ -46,9 +46,9 @@ mod tests {
         assert_eq!(t.bytes(Spectrum::BLACK), [0; 3]);
         assert_eq!(t.bytes(Spectrum::gray(9.0)), [255; 3]);
         assert_eq!(t.bytes(Spectrum::gray(f32::NAN)), [0; 3]);
-        // 0.2140411 linear is 50 % sRGB.
-        assert_eq!(t.bytes(Spectrum::gray(0.214_041_1)), [128; 3]);
+        // ((128/255 + 0.055) / 1.055)^2.4.
+        assert_eq!(t.bytes(Spectrum::gray(0.215_860_5)), [128; 3]);
         let up = ToneMap { exposure: 1.0, ..t };
-        assert_eq!(up.bytes(Spectrum::gray(0.107_020_55)), [128; 3]);
+        assert_eq!(up.bytes(Spectrum::gray(0.107_930_25)), [128; 3]);
     }
 }

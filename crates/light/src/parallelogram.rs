@@ -2,7 +2,7 @@ use std::cell::Cell;
 
 use etendue_core::{Fingerprint, Needs, Spectrum, Vec2, Vec3A, vector};
 use etendue_geometry::{Parallelogram, Shape, Surface};
-use etendue_sampling::warp::SphericalRectangle;
+use etendue_sampling::warp::{RectangleAxes, SphericalRectangle};
 use etendue_texture::{Tex, TexPoint, Texture};
 
 use crate::emitter::{
@@ -17,17 +17,29 @@ use crate::{Light, LightBounds, LightSample, LitPoint};
 #[derive(Clone, Debug)]
 pub struct ParallelogramLight {
     /// Where it is, world space.
-    pub shape: Parallelogram,
+    shape: Parallelogram,
     /// Radiance of the shining side, W·m⁻²·sr⁻¹.
     pub radiance: Tex,
     /// Whether the back shines too.
     pub two_sided: bool,
+    /// `None` where the corners are not square to a few ulp: then area sampling is used.
+    axes: Option<RectangleAxes>,
 }
 
 impl ParallelogramLight {
     /// A one-sided light.
     pub fn new(shape: Parallelogram, radiance: impl Into<Tex>) -> Self {
-        Self { shape, radiance: radiance.into(), two_sided: false }
+        let (u, v) = (shape.edge_u(), shape.edge_v());
+        let square = vector::normalize(u).dot(vector::normalize(v)).abs() <= 4.0 * f32::EPSILON;
+        let axes = if square { RectangleAxes::new(u, v) } else { None };
+        Self { shape, radiance: radiance.into(), two_sided: false, axes }
+    }
+
+    /// The same light, shining from both sides or from the front alone.
+    #[must_use]
+    pub fn with_two_sided(mut self, two_sided: bool) -> Self {
+        self.two_sided = two_sided;
+        self
     }
 
     #[inline]
@@ -41,15 +53,10 @@ impl ParallelogramLight {
         n.dot(n).sqrt()
     }
 
-    /// `None` where area sampling is to be used: out of the limits, or the corners are not square to a few ulp.
+    /// `None` where area sampling is to be used: not a rectangle, or out of the limits.
     #[inline]
     fn solid_angle(&self, p: Vec3A) -> Option<SphericalRectangle> {
-        let (u, v) = (self.shape.edge_u(), self.shape.edge_v());
-        let (a, b) = (vector::try_normalize(u)?, vector::try_normalize(v)?);
-        if a.dot(b).abs() > 4.0 * f32::EPSILON {
-            return None;
-        }
-        SphericalRectangle::new(self.shape.origin() - p, u, v)
+        SphericalRectangle::with_axes(self.shape.origin() - p, self.axes.as_ref()?)
     }
 }
 

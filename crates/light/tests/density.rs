@@ -90,7 +90,7 @@ fn any_light() -> impl Strategy<Value = Shown> {
                 0 => Arc::new(PointLight::new(a, Spectrum::ONE)) as Arc<dyn Light>,
                 1 => Arc::new(MeshLight::new(mesh, None, ONE, two_sided)),
                 2 => Arc::new(MeshLight::new(mesh, Some(stretched), ONE, two_sided)),
-                3 => Arc::new(ParallelogramLight { two_sided, ..ParallelogramLight::new(square, ONE) }),
+                3 => Arc::new(ParallelogramLight::new(square, ONE).with_two_sided(two_sided)),
                 4 => Arc::new(SphereLight { two_sided, ..SphereLight::new(sphere, ONE) }),
                 _ => Arc::new(ShapeLight::new(Arc::new(shape), Some(stretched), ONE, two_sided)),
             }))
@@ -149,8 +149,8 @@ fn density_integrates_to_one() {
                 surface.map_or(0.0, |s| f64::from(light.pdf(&at, 0, w, Some(&s))))
             })
         };
-        let rectangle = ParallelogramLight { two_sided: true, ..ParallelogramLight::new(square, ONE) };
-        let parallelogram = ParallelogramLight { two_sided: true, ..ParallelogramLight::new(skew, ONE) };
+        let rectangle = ParallelogramLight::new(square, ONE).with_two_sided(true);
+        let parallelogram = ParallelogramLight::new(skew, ONE).with_two_sided(true);
         let by_area = ShapeLight::new(Arc::new(skew), None, ONE, true);
         for (name, light, shape) in [
             ("rectangle", &rectangle as &dyn Light, &square as &dyn Shape),
@@ -246,7 +246,7 @@ fn scaling_by_powers_of_two_is_exact() {
                 Arc::new(PointLight::new(p[3], Spectrum::gray(scale * scale))),
                 Arc::new(MeshLight::new(mesh.clone(), None, ONE, true)),
                 Arc::new(MeshLight::new(mesh, Some(m), ONE, true)),
-                Arc::new(ParallelogramLight { two_sided: true, ..ParallelogramLight::new(flat, ONE) }),
+                Arc::new(ParallelogramLight::new(flat, ONE).with_two_sided(true)),
                 Arc::new(SphereLight { two_sided: true, ..SphereLight::new(sphere, ONE) }),
                 Arc::new(ShapeLight::new(Arc::new(shape), Some(m), ONE, true)),
                 Arc::new(ConstantEnvironment::new(Spectrum::ONE)),

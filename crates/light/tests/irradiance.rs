@@ -101,7 +101,7 @@ fn placed_and_skew_lights() {
     irradiance(&ShapeLight::new(Arc::new(shape), Some(m), ONE, false), &at, 2_000_000, 6).check(e, "shape");
     let world =
         Parallelogram::new(corners[0], corners[1] - corners[0], corners[3] - corners[0]).expect("an area");
-    let two_sided = ParallelogramLight { two_sided: true, ..ParallelogramLight::new(world, ONE) };
+    let two_sided = ParallelogramLight::new(world, ONE).with_two_sided(true);
     irradiance(&two_sided, &at, 2_000_000, 7).check(e, "parallelogram");
     // From behind a one-sided light is dark, a two-sided one is not.
     let behind = receiver(Vec3A::new(0.1, 5.0, 0.3), -at.ns);

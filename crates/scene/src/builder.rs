@@ -165,10 +165,7 @@ impl SceneBuilder {
     }
 
     /// Uses another ray-query structure than ours.
-    pub fn accel_with(
-        &mut self,
-        make: impl FnOnce(&World) -> Result<Box<dyn Accel>, BuildError> + 'static,
-    ) {
+    pub fn accel_with(&mut self, make: impl FnOnce(&World) -> Result<Box<dyn Accel>, BuildError> + 'static) {
         self.accel = Some(Box::new(make));
     }
 
@@ -248,8 +245,7 @@ impl SceneBuilder {
         let radius = accel.bounds().radius();
         let picker = match self.picker.take() {
             Some(make) => make(&emitters.lights, radius),
-            None => PowerPicker::new(&emitters.lights, radius)
-                .map(|p| Box::new(p) as Box<dyn LightPicker>),
+            None => PowerPicker::new(&emitters.lights, radius).map(|p| Box::new(p) as Box<dyn LightPicker>),
         };
         census::take(&world, &self.materials, &self.geom_materials, &emitters, &mut report);
         report.memory.hierarchy = accel.bytes();

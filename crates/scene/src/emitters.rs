@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use etendue_core::{Needs, Transform};
+use etendue_core::{Fingerprint, Needs, Transform};
 use etendue_geometry::{Geometry, Shape};
 use etendue_light::{Light, MeshLight, ParallelogramLight, ShapeLight, SphereLight};
 use etendue_texture::Texture;
@@ -26,6 +26,20 @@ impl Emitters {
             return self.direct.get(geom as usize).copied().flatten();
         }
         self.instanced.get(inst as usize)?.iter().find(|(g, _)| *g == geom).map(|(_, l)| *l)
+    }
+
+    pub(crate) fn fingerprint(&self, f: &mut Fingerprint) {
+        for (geom, light) in self.direct.iter().enumerate() {
+            if let Some(light) = light {
+                f.u64((geom as u64) << 32 | u64::from(*light));
+            }
+        }
+        for pairs in &self.instanced {
+            f.u64(pairs.len() as u64);
+            for &(geom, light) in pairs {
+                f.u64(u64::from(geom) << 32 | u64::from(light));
+            }
+        }
     }
 }
 
@@ -110,9 +124,11 @@ fn light_of(
         Geometry::Parallelogram(p) if to_world.is_some() => by_area(Arc::new(*p))?,
         Geometry::Sphere(s) => Arc::new(SphereLight { two_sided, ..SphereLight::new(*s, radiance) }),
         Geometry::Parallelogram(p) => {
-            Arc::new(ParallelogramLight { two_sided, ..ParallelogramLight::new(*p, radiance) })
+            Arc::new(ParallelogramLight::new(*p, radiance).with_two_sided(two_sided))
         }
-        Geometry::Plane(_) => return Err(cannot("an infinite plane has no finite power; use a parallelogram")),
+        Geometry::Plane(_) => {
+            return Err(cannot("an infinite plane has no finite power; use a parallelogram"));
+        }
         Geometry::Open(shape) => by_area(shape.clone())?,
     })
 }

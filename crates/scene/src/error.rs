@@ -39,7 +39,9 @@ pub enum SceneError {
         geom: u32,
     },
     /// A placement of something that has no bounds.
-    #[error("group {group} holds geometry {geom}, which is infinite and cannot be instanced; add it to the world instead")]
+    #[error(
+        "group {group} holds geometry {geom}, which is infinite and cannot be instanced; add it to the world instead"
+    )]
     InfiniteInstance {
         /// The group.
         group: u32,

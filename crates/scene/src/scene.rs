@@ -138,7 +138,11 @@ impl Scene {
     /// Radiance that a light's surface sends along `wo`, W·m⁻²·sr⁻¹.
     #[inline]
     pub fn emitted(&self, id: LightId, surface: &Surface, wo: Vec3A) -> Spectrum {
-        self.parts.emitters.lights.get(id.light as usize).map_or(Spectrum::BLACK, |l| l.emitted(id.part, surface, wo))
+        self.parts
+            .emitters
+            .lights
+            .get(id.light as usize)
+            .map_or(Spectrum::BLACK, |l| l.emitted(id.part, surface, wo))
     }
 
     /// The lights that escaped rays meet.
@@ -177,26 +181,34 @@ impl Scene {
     pub fn fingerprint(&self) -> Fingerprint {
         let mut f = Fingerprint::default();
         let p = &self.parts;
+        // Lengths go in first, so that a list's end cannot be taken for the next one's beginning.
         f.u64(p.world.geometries.len() as u64);
-        for (g, &m) in p.world.geometries.iter().zip(&p.geom_materials) {
+        for (id, (g, &m)) in p.world.geometries.iter().zip(&p.geom_materials).enumerate() {
             g.fingerprint(&mut f);
-            f.u64(u64::from(m));
+            f.u64(u64::from(m) << 32 | u64::from(p.world.mask(id as u32)));
         }
+        f.u64(p.world.direct.len() as u64);
         for &d in &p.world.direct {
             f.u64(u64::from(d));
         }
+        f.u64(p.world.instances.len() as u64);
         for i in &p.world.instances {
             i.to_world.fingerprint(&mut f);
+            f.u64(u64::from(i.mask) << 32 | i.geoms.len() as u64);
             for &g in i.geoms.iter() {
                 f.u64(u64::from(g));
             }
         }
+        f.u64(p.materials.len() as u64);
         for m in &p.materials {
             m.fingerprint(&mut f);
         }
+        f.u64(p.emitters.lights.len() as u64);
         for l in &p.emitters.lights {
             l.fingerprint(&mut f);
         }
+        // Which surface is which light: of two equal ones a hit has to know its own.
+        p.emitters.fingerprint(&mut f);
         if let Some(picker) = &p.picker {
             picker.fingerprint(&mut f);
         }

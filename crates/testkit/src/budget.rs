@@ -34,6 +34,25 @@ impl Budget {
         Self { effort, ..self }
     }
 
+    /// The same budget with another level.
+    #[must_use]
+    pub fn alpha(self, alpha: f64) -> Self {
+        Self { alpha, ..self }
+    }
+
+    /// The budget of one of `calls` calls that together keep the level: for a property test over `calls` cases, or a
+    /// list of parts.
+    ///
+    /// ```
+    /// # use etendue_testkit::Budget;
+    /// let each = Budget::default().shared(1000);
+    /// assert!((each.alpha / 1e-9 - 1.0).abs() < 1e-3);
+    /// ```
+    #[must_use]
+    pub fn shared(self, calls: usize) -> Self {
+        Self { alpha: crate::stats::sidak(self.alpha, calls), ..self }
+    }
+
     /// A number of samples scaled by the effort; at least 16.
     pub(crate) fn samples(&self, n: usize) -> usize {
         ((n as f64 * self.effort) as usize).max(16)
@@ -50,8 +69,18 @@ impl Budget {
 pub struct Passed {
     /// Tests made.
     pub tests: usize,
+    /// How many of them had chance in them.
+    pub statistical: usize,
     /// The smallest p-value among the statistical ones; 1 if there were none.
     pub smallest_p: f64,
+}
+
+impl Passed {
+    /// The probability that the smallest of so many independent p-values is this small. Over seeds it is uniform or
+    /// larger: a suite whose values crowd near 0 is wrong itself, or sees a defect that is just below its power.
+    pub fn p(&self) -> f64 {
+        -(self.statistical as f64 * (-self.smallest_p).ln_1p()).exp_m1()
+    }
 }
 
 /// The first thing that is wrong.
@@ -78,13 +107,14 @@ pub type Outcome = Result<Passed, Failure>;
 /// can be judged as it is made.
 pub(crate) struct Judge {
     level: f64,
+    expected: usize,
     passed: Passed,
 }
 
 impl Judge {
     pub(crate) fn new(budget: &Budget, statistical_tests: usize) -> Self {
         let level = crate::stats::sidak(budget.alpha, statistical_tests);
-        Self { level, passed: Passed { tests: 0, smallest_p: 1.0 } }
+        Self { level, expected: statistical_tests, passed: Passed { tests: 0, statistical: 0, smallest_p: 1.0 } }
     }
 
     /// A test that has no chance in it.
@@ -106,6 +136,7 @@ impl Judge {
         what: impl FnOnce() -> String,
     ) -> Result<(), Failure> {
         self.passed.tests += 1;
+        self.passed.statistical += 1;
         self.passed.smallest_p = self.passed.smallest_p.min(p);
         if p >= self.level {
             return Ok(());
@@ -114,6 +145,7 @@ impl Judge {
     }
 
     pub(crate) fn done(self) -> Outcome {
+        debug_assert!(self.passed.statistical <= self.expected, "{:?} of {}", self.passed, self.expected);
         Ok(self.passed)
     }
 }
@@ -129,6 +161,11 @@ impl Random {
     /// Uniform in `[0, 1)`.
     pub(crate) fn unit(&mut self) -> f32 {
         unit_f32(self.bits())
+    }
+
+    /// Uniform in `[0, n)`.
+    pub(crate) fn below(&mut self, n: usize) -> usize {
+        ((u64::from(self.bits()) * n as u64) >> 32) as usize
     }
 
     /// Uniform in `[0, 1)²`.

@@ -1,41 +1,53 @@
 use etendue_bsdf::{Bsdf, BsdfSample, Lobes, Mode};
-use etendue_core::{Spectrum, Vec2, Vec3A};
+use etendue_core::{Spectrum, Vec2, Vec3A, vector};
+use etendue_sampling::Moments;
 
 use crate::budget::{Budget, EXTREMES, Failure, Judge, Outcome, Random};
-use crate::sphere_grid::SphereGrid;
-use crate::stats::binomial_test;
+use crate::partition::Partition;
+use crate::rounding::agree;
+use crate::stats::{binomial_test, p_of_z_beyond};
 
 /// Cosines of the outgoing directions tested, on both sides of the surface.
 const COSINES: [f32; 5] = [0.98, 0.75, 0.4, 0.12, 0.02];
-/// The two grids: one sees broad defects, the other local ones.
-const GRIDS: [SphereGrid; 2] = [SphereGrid { rows: 20, cols: 20 }, SphereGrid { rows: 80, cols: 80 }];
 const SAMPLES: usize = 40_000;
 const PAIRS: usize = 2_000;
+const MODES: [Mode; 2] = [Mode::Radiance, Mode::Importance];
+/// Fine and coarse density, mass, mean weight, energy.
+const TESTS: usize = 5;
 
 /// Tests a BSDF against the contract of [`Bsdf`].
 ///
-/// For outgoing directions from the normal to grazing, on both sides and in both modes: samples are finite, unit and
-/// within their lobes; `weight` is `eval / pdf` and `pdf` is that of the sample; the density integrates to the
-/// sampled mass and fits the directions drawn (χ² on two grids); the mean weight is the integral of `eval`; no
-/// energy is made (mean weight at most 1 in importance mode); swapping the directions swaps the modes (Veach 1997,
-/// Eq. 5.14), and leaves reflection alone where [`Lobes::RECIPROCAL`] is declared; the fused and split calls agree
-/// with the plain ones; extreme random numbers and grazing directions stay finite.
+/// For outgoing directions from the normal to grazing, on both sides and in both modes:
 ///
-/// Power: a density wrong by 1 % over a hemisphere, or a mean weight wrong by 1 %, is rejected.
+/// * samples are finite, unit and within their declared lobes; `weight` is `eval / pdf`, `pdf` is that of the sample;
+/// * the directions drawn fit the density (χ² on a fine and a coarse partition of the sphere that follows the
+///   lobes), and the density's integral is the fraction of attempts that gave one;
+/// * the mean weight is the integral of `eval`, so nothing that scatters is left out; in importance mode it is at most
+///   1, so no energy is made;
+/// * exchanging the directions exchanges the modes (Veach 1997, equation 5.14), for delta lobes too, and leaves
+///   reflection alone where [`Lobes::RECIPROCAL`] is declared;
+/// * `eval_pdf`, `scatter` and `eval_classes` say what the plain calls say; extreme random numbers, grazing directions
+///   and directions that are none stay finite.
+///
+/// Rounding: values are compared within what the rounding of the directions alone can change, so narrow lobes are
+/// tested down to the digits they have.
+///
+/// Power at effort 1, on 99 of 100 seeds: a density wrong by 1 % throughout or by 15 % (rms) over a lobe, a weight or
+/// a mean weight wrong by 1 %. Not seen: a constant factor below 1 on a delta lobe that nothing else says.
 ///
 /// # Errors
 /// The first [`Failure`].
 pub fn check_bsdf(bsdf: &dyn Bsdf, budget: &Budget) -> Outcome {
     let directions = COSINES.len() * 2;
-    let mut judge = Judge::new(budget, directions * 2 * (GRIDS.len() + 2));
+    let mut judge = Judge::new(budget, directions * MODES.len() * TESTS);
     let mut random = budget.random(0xb5df);
     extremes(bsdf, &mut judge)?;
     exchange(bsdf, budget, &mut random, &mut judge)?;
     for (i, cos) in COSINES.iter().flat_map(|&c| [c, -c]).enumerate() {
         let phi = std::f64::consts::TAU * f64::from(random.unit());
-        let sin = f64::from(1.0 - cos * cos).sqrt();
+        let sin = (1.0 - f64::from(cos) * f64::from(cos)).sqrt();
         let wo = Vec3A::new((sin * phi.cos()) as f32, (sin * phi.sin()) as f32, cos);
-        for mode in [Mode::Radiance, Mode::Importance] {
+        for mode in MODES {
             density(bsdf, wo, mode, budget, &mut random, &mut judge)
                 .map_err(|f| Failure { what: format!("{}; wo = {wo} (direction {i}), {mode:?}", f.what), ..f })?;
         }
@@ -43,49 +55,68 @@ pub fn check_bsdf(bsdf: &dyn Bsdf, budget: &Budget) -> Outcome {
     judge.done()
 }
 
-fn close(a: f32, b: f32, relative: f32) -> bool {
-    (a - b).abs() <= relative * a.abs().max(b.abs())
-}
-
-fn close_spectra(a: Spectrum, b: Spectrum, relative: f32) -> bool {
-    // Against the largest channel: a black channel of a coloured product is only rounding.
-    let scale = a.max_channel().max(b.max_channel());
-    (0..3).all(|c| (a[c] - b[c]).abs() <= relative * scale)
-}
-
 /// What must hold for any sample, whatever the input.
 fn sound(bsdf: &dyn Bsdf, wo: Vec3A, s: &BsdfSample, judge: &mut Judge) -> Result<(), Failure> {
     let finite = s.wi.is_finite() && s.weight.is_finite() && s.pdf.is_finite() && s.eta.is_finite();
     judge.require(finite, "finite", || format!("{s:?} for wo = {wo}"))?;
-    judge.require((s.wi.length() - 1.0).abs() < 1e-4, "unit", || format!("|wi| = {} for wo = {wo}", s.wi.length()))?;
+    judge.require((vector::length(s.wi) - 1.0).abs() < 1e-5, "unit", || {
+        format!("|wi| = {} for wo = {wo}", vector::length(s.wi))
+    })?;
     let positive = s.weight.to_array().iter().all(|&w| w >= 0.0) && s.pdf > 0.0 && s.eta > 0.0;
     judge.require(positive, "sign", || format!("{s:?} for wo = {wo}"))?;
-    let known = bsdf.lobes().contains(s.lobe & !Lobes::RECIPROCAL);
-    judge.require(known, "lobes", || format!("sampled {:?}, declared {:?}", s.lobe, bsdf.lobes()))?;
+    let side = s.lobe & (Lobes::REFLECTION | Lobes::TRANSMISSION);
+    let kind = s.lobe & (Lobes::DIFFUSE | Lobes::GLOSSY | Lobes::DELTA);
+    let one = side.bits().count_ones() == 1 && kind.bits().count_ones() == 1;
+    judge.require(one && bsdf.lobes().contains(side | kind), "lobes", || {
+        format!("sampled {:?}, declared {:?}", s.lobe, bsdf.lobes())
+    })?;
     let crossed = wo.z * s.wi.z < 0.0;
-    let side = s.lobe.contains(Lobes::TRANSMISSION) == crossed || s.wi.z == 0.0 || wo.z == 0.0;
-    judge.require(side, "side", || format!("{:?} from wo = {wo} to wi = {}", s.lobe, s.wi))
+    let right = (side == Lobes::TRANSMISSION) == crossed || s.wi.z == 0.0 || wo.z == 0.0;
+    judge.require(right, "side", || format!("{:?} from wo = {wo} to wi = {}", s.lobe, s.wi))?;
+    judge.require(side == Lobes::TRANSMISSION || s.eta == 1.0, "eta", || {
+        format!("a reflection with eta = {}", s.eta)
+    })
 }
 
-/// Extreme random numbers and grazing directions.
+/// Extreme random numbers, grazing directions, and directions that are none.
 fn extremes(bsdf: &dyn Bsdf, judge: &mut Judge) -> Result<(), Failure> {
+    let draws = || {
+        EXTREMES.iter().flat_map(|&l| {
+            EXTREMES.iter().flat_map(move |&x| EXTREMES.map(|y| (l, Vec2::new(x, y))))
+        })
+    };
+    let finite = |wo: Vec3A, wi: Vec3A, mode| {
+        let (e, p) = (bsdf.eval(wo, wi, mode), bsdf.pdf(wo, wi, mode));
+        e.is_finite() && e.to_array().iter().all(|&c| c >= 0.0) && p.is_finite() && p >= 0.0
+    };
     for cos in [1.0f32, 0.5, 1e-3, 1e-7, 0.0, -1e-7, -1e-3, -0.5, -1.0] {
         let wo = Vec3A::new((1.0 - cos * cos).sqrt(), 0.0, cos);
-        for mode in [Mode::Radiance, Mode::Importance] {
-            for u_lobe in EXTREMES {
-                for u in EXTREMES.iter().flat_map(|&x| EXTREMES.map(|y| Vec2::new(x, y))) {
-                    if let Some(s) = bsdf.sample(wo, u_lobe, u, mode) {
-                        sound(bsdf, wo, &s, judge)?;
-                        let (e, p) = (bsdf.eval(wo, s.wi, mode), bsdf.pdf(wo, s.wi, mode));
-                        judge.require(e.is_finite() && p.is_finite() && p >= 0.0, "finite", || {
-                            format!("eval {e:?}, pdf {p} for wo = {wo}, wi = {}", s.wi)
-                        })?;
-                    }
+        for mode in MODES {
+            for (u_lobe, u) in draws() {
+                if let Some(s) = bsdf.sample(wo, u_lobe, u, mode) {
+                    sound(bsdf, wo, &s, judge)?;
+                    judge.require(finite(wo, s.wi, mode), "finite", || {
+                        format!("eval or pdf for wo = {wo}, wi = {}", s.wi)
+                    })?;
                 }
             }
-            let a = bsdf.albedo(wo);
-            let ok = a.is_finite() && a.to_array().iter().all(|&c| (0.0..=1.5).contains(&c));
-            judge.require(ok, "albedo", || format!("{a:?} for wo = {wo}"))?;
+        }
+        let a = bsdf.albedo(wo);
+        let ok = a.is_finite() && a.to_array().iter().all(|&c| (0.0..=1.5).contains(&c));
+        judge.require(ok, "albedo", || format!("{a:?} for wo = {wo}"))?;
+    }
+    let (nan, inf) = (f32::NAN, f32::INFINITY);
+    let odd = [Vec3A::ZERO, Vec3A::splat(nan), Vec3A::Z * inf, Vec3A::new(1.0, nan, 0.5), Vec3A::splat(1e30), Vec3A::X];
+    for (i, &wo) in odd.iter().enumerate() {
+        let wi = odd[(i * 5 + 2) % odd.len()];
+        for mode in MODES {
+            let ok = finite(wo, wi, mode) && finite(wo, Vec3A::Z, mode) && finite(Vec3A::Z, wo, mode);
+            judge.require(ok, "not a direction", || format!("eval or pdf for wo or wi = {wo}"))?;
+            for (u_lobe, u) in draws() {
+                let s = bsdf.sample(wo, u_lobe, u, mode);
+                let ok = s.is_none_or(|s| s.wi.is_finite() && s.weight.is_finite() && s.pdf.is_finite());
+                judge.require(ok, "not a direction", || format!("{s:?} for wo = {wo}"))?;
+            }
         }
     }
     Ok(())
@@ -93,45 +124,98 @@ fn extremes(bsdf: &dyn Bsdf, judge: &mut Judge) -> Result<(), Failure> {
 
 /// Exchanging the directions, and the calls that must say the same.
 fn exchange(bsdf: &dyn Bsdf, budget: &Budget, random: &mut Random, judge: &mut Judge) -> Result<(), Failure> {
+    let spread = bsdf.lobes().intersects(Lobes::DIFFUSE | Lobes::GLOSSY);
     for _ in 0..budget.samples(PAIRS) {
         let wo = random.direction();
         let (u_lobe, u) = (random.unit(), random.pair());
         // Half the pairs where the BSDF is large, half anywhere.
-        let wi = match bsdf.sample(wo, u_lobe, u, Mode::Radiance) {
-            Some(s) if u_lobe < 0.5 => s.wi,
+        let sample = bsdf.sample(wo, u_lobe, u, Mode::Importance);
+        let wi = match sample {
+            Some(s) if random.unit() < 0.5 => s.wi,
             _ => random.direction(),
         };
+        if let Some(s) = sample.filter(|s| s.lobe.contains(Lobes::DELTA)) {
+            delta_exchange(bsdf, wo, &s, random, judge)?;
+        }
         // At grazing angles the quotient by the cosine is all rounding.
-        if wo.z.abs() > 1e-2 && wi.z.abs() > 1e-2 {
-            let there = bsdf.eval(wo, wi, Mode::Importance) / wi.z.abs();
+        if spread && wo.z.abs() > 1e-2 && wi.z.abs() > 1e-2 {
             let back = bsdf.eval(wi, wo, Mode::Radiance) / wo.z.abs();
-            judge.require(close_spectra(there, back, 2e-3), "adjoint", || {
-                format!("f*({wo}, {wi}) = {there:?} in importance mode, f(wi, wo) = {back:?} in radiance mode")
+            let there = |o: Vec3A, i: Vec3A| bsdf.eval(o, i, Mode::Importance) / i.z.abs();
+            judge.require(agree(back, wo, wi, 2e-3, &there), "adjoint", || {
+                format!("f*({wo}, {wi}) = {:?} in importance mode, f(wi, wo) = {back:?} in radiance mode", there(wo, wi))
             })?;
             if bsdf.lobes().contains(Lobes::RECIPROCAL) && wo.z * wi.z > 0.0 {
-                let there = bsdf.eval(wo, wi, Mode::Radiance) / wi.z.abs();
-                judge.require(close_spectra(there, back, 2e-3), "reciprocity", || {
-                    format!("f({wo}, {wi}) = {there:?}, exchanged {back:?}")
+                let there = |o: Vec3A, i: Vec3A| bsdf.eval(o, i, Mode::Radiance) / i.z.abs();
+                judge.require(agree(back, wo, wi, 2e-3, &there), "reciprocity", || {
+                    format!("f({wo}, {wi}) = {:?}, exchanged {back:?}", there(wo, wi))
                 })?;
             }
         }
-        for mode in [Mode::Radiance, Mode::Importance] {
-            let (e, p) = (bsdf.eval(wo, wi, mode), bsdf.pdf(wo, wi, mode));
-            let (fe, fp) = bsdf.eval_pdf(wo, wi, mode);
-            let s = bsdf.scatter(wo, Some(wi), u_lobe, u, mode);
-            let same = close_spectra(e, fe, 1e-5)
-                && close(p, fp, 1e-5)
-                && close_spectra(e, s.eval, 1e-5)
-                && close(p, s.pdf, 1e-5)
-                && s.sample == bsdf.sample(wo, u_lobe, u, mode);
-            judge.require(same, "fused", || format!("eval_pdf or scatter differ from eval, pdf, sample at {wo}, {wi}"))?;
-            let classes = bsdf.eval_classes(wo, wi, mode).into_iter().fold(Spectrum::BLACK, |a, b| a + b);
-            judge.require(close_spectra(classes, e, 1e-5), "classes", || {
-                format!("classes add up to {classes:?}, eval is {e:?} at {wo}, {wi}")
-            })?;
+        for mode in MODES {
+            same_calls(bsdf, wo, wi, u_lobe, u, mode, judge)?;
         }
     }
     Ok(())
+}
+
+/// A delta lobe carries the same both ways, in étendue: what importance takes along, times eta², is what radiance
+/// takes back.
+fn delta_exchange(bsdf: &dyn Bsdf, wo: Vec3A, s: &BsdfSample, random: &mut Random, judge: &mut Judge) -> Result<(), Failure> {
+    let (e, p) = (bsdf.eval(wo, s.wi, Mode::Importance), bsdf.pdf(wo, s.wi, Mode::Importance));
+    let only_delta = !bsdf.lobes().intersects(Lobes::DIFFUSE | Lobes::GLOSSY);
+    judge.require(!only_delta || (e.is_black() && p == 0.0), "delta", || {
+        format!("eval {e:?} and pdf {p} of a delta lobe must be 0")
+    })?;
+    // Near grazing and near the critical angle the fraction turns with the last digits of the direction.
+    if wo.z.abs() < 0.1 || s.wi.z.abs() < 0.1 {
+        return Ok(());
+    }
+    let back = (0..64).find_map(|_| {
+        bsdf.sample(s.wi, random.unit(), random.pair(), Mode::Radiance)
+            .filter(|b| b.lobe == s.lobe && vector::length(b.wi - wo) < 1e-4)
+    });
+    let Some(back) = back else {
+        // The way back may be too rare to meet.
+        return judge.require(s.pdf < 0.3, "delta", || format!("no way back from {} to {wo}", s.wi));
+    };
+    let there = s.weight * (s.pdf * s.eta * s.eta);
+    let here = back.weight * back.pdf;
+    let off = (there - here).map(f32::abs).max_channel();
+    judge.require(off <= 5e-3 * here.max_channel() + 1e-6, "adjoint", || {
+        format!("a delta lobe from {wo} takes {there:?} of importance times eta², and {here:?} of radiance back")
+    })?;
+    judge.require((s.eta * back.eta - 1.0).abs() < 1e-5, "eta", || format!("{} there, {} back", s.eta, back.eta))
+}
+
+/// The fused and split calls.
+fn same_calls(
+    bsdf: &dyn Bsdf,
+    wo: Vec3A,
+    wi: Vec3A,
+    u_lobe: f32,
+    u: Vec2,
+    mode: Mode,
+    judge: &mut Judge,
+) -> Result<(), Failure> {
+    let close = |a: f32, b: f32| (a - b).abs() <= 1e-5 * a.abs().max(b.abs());
+    let close_spectra = |a: Spectrum, b: Spectrum| (0..3).all(|c| close(a[c], b[c]));
+    let (e, p) = (bsdf.eval(wo, wi, mode), bsdf.pdf(wo, wi, mode));
+    let (fe, fp) = bsdf.eval_pdf(wo, wi, mode);
+    let s = bsdf.scatter(wo, Some(wi), u_lobe, u, mode);
+    let dark = bsdf.scatter(wo, None, u_lobe, u, mode);
+    let same = close_spectra(e, fe) && close(p, fp) && close_spectra(e, s.eval) && close(p, s.pdf);
+    judge.require(same, "fused", || format!("eval_pdf or scatter differ from eval and pdf at {wo}, {wi}"))?;
+    let drawn = bsdf.sample(wo, u_lobe, u, mode);
+    judge.require(s.sample == drawn && dark.sample == drawn, "fused", || {
+        format!("scatter draws {:?}, without a light {:?}, sample draws {drawn:?}", s.sample, dark.sample)
+    })?;
+    let classes = bsdf.eval_classes(wo, wi, mode);
+    let sum = classes.into_iter().fold(Spectrum::BLACK, |a, b| a + b);
+    let crossed = usize::from(wo.z * wi.z < 0.0);
+    let other_side = classes[2 - 2 * crossed] + classes[3 - 2 * crossed];
+    judge.require(close_spectra(sum, e) && other_side.is_black(), "classes", || {
+        format!("classes are {classes:?}, eval is {e:?} at {wo}, {wi}")
+    })
 }
 
 /// Density, mass, mean weight and energy for one outgoing direction.
@@ -144,59 +228,82 @@ fn density(
     judge: &mut Judge,
 ) -> Result<(), Failure> {
     let n = budget.samples(SAMPLES);
-    let mut observed = GRIDS.map(|g| vec![0u64; g.cells()]);
-    let (mut spread, mut weights) = (0u64, etendue_sampling::Moments::default());
-    let mut spread_weights = etendue_sampling::Moments::default();
+    let is_spread = |s: &BsdfSample| !s.lobe.contains(Lobes::DELTA);
+    let scouts: Vec<Vec3A> = (0..n / 4)
+        .filter_map(|_| bsdf.sample(wo, random.unit(), random.pair(), mode).filter(is_spread).map(|s| s.wi))
+        .collect();
+    let mut directions = Vec::with_capacity(n);
+    // All channels at once for energy, their mean for the spread part.
+    let mut weights = [Moments::default(); 3];
+    let mut spread = Moments::default();
     for _ in 0..n {
-        let Some(s) = bsdf.sample(wo, random.unit(), random.pair(), mode) else {
-            weights.add(0.0);
-            spread_weights.add(0.0);
+        let sample = bsdf.sample(wo, random.unit(), random.pair(), mode);
+        let weight = sample.map_or(Spectrum::BLACK, |s| s.weight);
+        for (m, w) in weights.iter_mut().zip(weight.to_array()) {
+            m.add(f64::from(w));
+        }
+        let Some(s) = sample else {
+            spread.add(0.0);
             continue;
         };
         sound(bsdf, wo, &s, judge)?;
-        weights.add(f64::from(s.weight.max_channel()));
-        let (e, p) = (bsdf.eval(wo, s.wi, mode), bsdf.pdf(wo, s.wi, mode));
-        if s.lobe.contains(Lobes::DELTA) {
-            spread_weights.add(0.0);
+        if !is_spread(&s) {
+            spread.add(0.0);
             continue;
         }
-        judge.require(close(p, s.pdf, 2e-3), "pdf", || format!("sample says {}, pdf() says {p} at wi = {}", s.pdf, s.wi))?;
-        judge.require(close_spectra(s.weight * s.pdf, e, 4e-3), "weight", || {
-            format!("weight · pdf = {:?}, eval = {e:?} at wi = {}", s.weight * s.pdf, s.wi)
+        spread.add(f64::from(s.weight.mean()));
+        directions.push(s.wi);
+        let pdf = |o, i| Spectrum::gray(bsdf.pdf(o, i, mode));
+        judge.require(agree(Spectrum::gray(s.pdf), wo, s.wi, 2e-3, &pdf), "pdf", || {
+            format!("sample says {}, pdf() says {} at wi = {}", s.pdf, pdf(wo, s.wi).r(), s.wi)
         })?;
-        spread += 1;
-        spread_weights.add(f64::from(s.weight.mean()));
-        for (grid, cells) in GRIDS.iter().zip(&mut observed) {
-            cells[grid.cell(s.wi)] += 1;
-        }
+        let eval = |o, i| bsdf.eval(o, i, mode);
+        judge.require(agree(s.weight * s.pdf, wo, s.wi, 4e-3, &eval), "weight", || {
+            format!("weight · pdf = {:?}, eval = {:?} at wi = {}", s.weight * s.pdf, eval(wo, s.wi), s.wi)
+        })?;
     }
-    let pdf = |wi: Vec3A| f64::from(bsdf.pdf(wo, wi, mode));
-    for (grid, cells) in GRIDS.iter().zip(&observed) {
-        let (chi2, mass) = grid.test(cells, n as u64, &pdf);
-        judge.require(mass <= 1.002, "mass", || format!("the density integrates to {mass}"))?;
+    let both = |wi: Vec3A| {
+        let (e, p) = bsdf.eval_pdf(wo, wi, mode);
+        [f64::from(p), f64::from(e.mean())]
+    };
+    let partition = Partition::new(&scouts, &directions, n, spread.mean(), &both);
+    fits(&partition, directions.len(), n, judge)?;
+
+    let (mean, se) = (spread.mean(), spread.standard_error());
+    let whole = partition.other();
+    let p = p_of_z_beyond(mean - whole.value, whole.error + 1e-3 * mean, se);
+    judge.p_value(p, "mean weight", || format!("samples say {mean}, the integral of eval is {whole:?}"))?;
+    if mode == Mode::Importance {
+        let most = weights.into_iter().max_by(|a, b| a.mean().total_cmp(&b.mean())).unwrap_or_default();
+        let excess = (most.mean() - 1.0).max(0.0);
+        let p = p_of_z_beyond(excess, 1e-4, most.standard_error());
+        judge.p_value(p, "energy", || format!("the mean weight is {} ± {}", most.mean(), most.standard_error()))?;
+    }
+    Ok(())
+}
+
+/// Whether directions fit their density and its mass: three statistical tests.
+pub(crate) fn fits(partition: &Partition, drawn: usize, n: usize, judge: &mut Judge) -> Result<(), Failure> {
+    let mass = partition.mass();
+    judge.require(mass.value - mass.error <= 1.0 + 2e-3, "mass", || format!("the density integrates to {mass:?}"))?;
+    for (chi2, cells) in [(partition.fine(), "fine"), (partition.coarse(), "coarse")] {
         // A few samples may be rounded across the border of the support.
         judge.require(chi2.impossible as f64 <= 1e-4 * n as f64 + 1.0, "support", || {
             format!("{} of {n} samples fell where the density is 0", chi2.impossible)
         })?;
         judge.p_value(chi2.p, "density", || {
-            format!("directions do not fit the density: χ² = {:.1} with {} degrees of freedom", chi2.statistic, chi2.dof)
+            format!(
+                "directions do not fit the density: χ² = {:.1} with {} degrees of freedom ({cells} cells)",
+                chi2.statistic, chi2.dof
+            )
         })?;
-        if grid.rows == GRIDS[0].rows {
-            let test = binomial_test(spread, n as u64, mass.min(1.0));
-            // Quadrature knows the mass to 1e-3; what is beyond must be chance.
-            let p = if (test.estimate - mass).abs() < 1.5e-3 { 1.0 } else { test.p };
-            judge.p_value(p, "mass", || format!("{} of the samples are spread, the density's mass is {mass}", test.estimate))?;
-            let eval = |wi: Vec3A| f64::from(bsdf.eval(wo, wi, mode).mean());
-            let integral: f64 = grid.integrate(cells, &eval).iter().sum();
-            let (mean, se) = (spread_weights.mean(), spread_weights.standard_error());
-            let off = ((mean - integral).abs() - 2e-3 * integral.max(mean)).max(0.0);
-            let p = if off == 0.0 { 1.0 } else { crate::stats::p_of_z(off / se.max(1e-9)) };
-            judge.p_value(p, "mean weight", || format!("samples say {mean}, the integral of eval is {integral}"))?;
-        }
     }
-    if mode == Mode::Importance {
-        let (mean, se) = (weights.mean(), weights.standard_error());
-        judge.require(mean - 6.0 * se <= 1.0 + 1e-4, "energy", || format!("the mean weight is {mean} ± {se}"))?;
-    }
-    Ok(())
+    // The nearest mass that the quadrature allows.
+    let seen = drawn as f64 / n as f64;
+    let slack = mass.error + 5e-4;
+    let nearest = seen.clamp(mass.value - slack, mass.value + slack);
+    let test = binomial_test(drawn as u64, n as u64, nearest);
+    judge.p_value(test.p, "mass", || {
+        format!("{seen} of the attempts gave a direction, the density's mass is {mass:?}")
+    })
 }

@@ -30,7 +30,9 @@ mod check_light;
 mod check_picker;
 mod check_sampler;
 mod check_shape;
-mod sphere_grid;
+mod cube;
+mod partition;
+mod rounding;
 pub mod stats;
 pub mod strategies;
 

@@ -2,8 +2,9 @@ use etendue_core::rounding::gamma;
 use etendue_core::{Ray, Vec3A};
 
 /// A far distance grows by this much before it is compared with a near one, so that rounding never loses a box
-/// (Ize 2013, "Robust BVH ray traversal"). It also covers the rounding of a hit's `t` that limits the search.
-pub(crate) const FAR_PAD: f32 = 2.0 * gamma(3);
+/// (Ize 2013, "Robust BVH ray traversal": three roundings on either side). The fourth covers the rounding of the `t` of
+/// a hit that limits the search, and what the triangle test allows itself.
+pub(crate) const FAR_PAD: f32 = 2.0 * gamma(4);
 
 /// A ray prepared for box tests.
 ///

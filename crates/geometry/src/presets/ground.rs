@@ -68,7 +68,7 @@ pub fn block(n: u32, seed: u32) -> TriangleMesh {
     push_grid(&mut indices, n, |i, j| j * side + i);
     // The border seen from above, clockwise: the order in which outward walls have their top edge.
     let mut border = Vec::new();
-    border.extend((0..n).map(|i| i));
+    border.extend(0..n);
     border.extend((0..n).map(|j| j * side + n));
     border.extend((0..n).map(|i| n * side + n - i));
     border.extend((0..n).map(|j| (n - j) * side));

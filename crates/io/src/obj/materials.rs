@@ -7,23 +7,49 @@ use etendue_material::{Cutout, Diffuse, Glass, Metal, MirrorMaterial};
 use etendue_scene::{Emission, GeomId, MaterialId, SceneBuilder};
 use etendue_texture::{Channel, Encoding, ImageTexture, ImageUse, ScalarTex, Tex};
 
-use crate::{Limits, Resolver};
+use crate::{Limits, ResolveError, Resolver};
 
-/// Reads one MTL file. Whatever is wrong with it becomes a warning: geometry without its colours is better than none.
+/// Materials and where each name is among them, as the parser hands them over.
+type Library = (Vec<tobj::Material>, HashMap<String, usize>);
+
+/// Reads what one `mtllib` line names. Whatever is wrong with it becomes a warning: geometry without its colours is
+/// better than none.
 pub(crate) fn parse(
     name: &str,
     resolver: &dyn Resolver,
     limits: &Limits,
     warnings: &mut Vec<String>,
-) -> (Vec<tobj::Material>, HashMap<String, usize>) {
-    let bytes = match resolver.read(name, limits.file_bytes) {
-        Ok(bytes) => bytes,
-        Err(e) => {
-            warnings.push(format!("material file: {e}; its materials are gray"));
-            return Default::default();
-        }
+) -> Library {
+    let complain = |e: ResolveError, warnings: &mut Vec<String>| {
+        warnings.push(format!("material file: {e}; its materials are gray"));
     };
-    let text = String::from_utf8_lossy(&bytes);
+    match resolver.read(name, limits.file_bytes) {
+        Ok(bytes) => parse_bytes(name, &bytes, limits, warnings),
+        // One file whose name has spaces, or several files.
+        Err(_) if name.split_whitespace().nth(1).is_some() => {
+            let mut all = Library::default();
+            for part in name.split_whitespace() {
+                match resolver.read(part, limits.file_bytes) {
+                    Ok(bytes) => {
+                        let (mut materials, places) = parse_bytes(part, &bytes, limits, warnings);
+                        let before = all.0.len();
+                        all.0.append(&mut materials);
+                        all.1.extend(places.into_iter().map(|(name, place)| (name, place + before)));
+                    }
+                    Err(e) => complain(e, warnings),
+                }
+            }
+            all
+        }
+        Err(e) => {
+            complain(e, warnings);
+            Library::default()
+        }
+    }
+}
+
+fn parse_bytes(name: &str, bytes: &[u8], limits: &Limits, warnings: &mut Vec<String>) -> Library {
+    let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let mut safe = String::with_capacity(text.len());
     for (i, line) in text.lines().enumerate() {
         if line.len() > limits.line_bytes {
@@ -64,6 +90,9 @@ fn push_safe(line: &str, out: &mut String) -> Result<(), &'static str> {
         },
         // `newmtl` without a name would be refused; a nameless material can still be used by a nameless `usemtl`.
         "newmtl" if words.next().is_none() => out.push_str("newmtl unnamed"),
+        _ if (key.starts_with("map_") || key == "bump") && words.next().is_none() => {
+            return Err("a texture needs a file name");
+        }
         _ => out.push_str(line.trim()),
     }
     Ok(())
@@ -75,7 +104,7 @@ pub(crate) struct Made<'a> {
     resolver: &'a dyn Resolver,
     limits: &'a Limits,
     ids: HashMap<Option<usize>, MaterialId>,
-    images: HashMap<String, Option<Arc<ImageTexture>>>,
+    images: HashMap<(String, Encoding), Option<Arc<ImageTexture>>>,
     image_bytes: u64,
     pub(crate) warnings: Vec<String>,
 }
@@ -113,6 +142,11 @@ impl<'a> Made<'a> {
 
     fn make(&mut self, m: &tobj::Material, builder: &mut SceneBuilder) -> MaterialId {
         let name = &m.name;
+        let unread = unread_textures(m);
+        if !unread.is_empty() {
+            self.warnings
+                .push(format!("material '{name}': textures that are not used: {}", unread.join(", ")));
+        }
         let kd = m.diffuse.map_or(Spectrum::gray(0.6), clamped);
         let ks = m.specular.map_or(Spectrum::BLACK, clamped);
         let number = |key: &str| m.unknown_param.get(key).and_then(|v| v.trim().parse::<f32>().ok());
@@ -132,14 +166,22 @@ impl<'a> Made<'a> {
             return builder.material(MirrorMaterial::new(ks));
         }
         if !ks.is_black() {
-            self.warnings.push(format!("material '{name}': its highlight (Ks, Ns) has no physical meaning; dropped"));
+            self.warnings
+                .push(format!("material '{name}': its highlight (Ks, Ns) has no physical meaning; dropped"));
         }
-        let albedo = match m.diffuse_texture.as_deref().and_then(|t| self.image(t)) {
+        let albedo = match m.diffuse_texture.as_deref().and_then(|t| self.image(t, Encoding::Srgb)) {
             Some(image) => Tex::image(image),
             None => Tex::from(kd),
         };
         let base = Diffuse::new(albedo);
-        if let Some(image) = m.dissolve_texture.as_deref().and_then(|t| self.image(t)) {
+        if emissive(m).is_some() {
+            if dissolve < 1.0 || m.dissolve_texture.is_some() {
+                self.warnings
+                    .push(format!("material '{name}' emits light: its opacity (d, Tr, map_d) is dropped"));
+            }
+            return builder.material(base);
+        }
+        if let Some(image) = m.dissolve_texture.as_deref().and_then(|t| self.image(t, Encoding::Linear)) {
             return builder.material(Cutout::new(base, ScalarTex::image(ImageUse::new(image), Channel::R)));
         }
         if dissolve < 1.0 {
@@ -149,39 +191,61 @@ impl<'a> Made<'a> {
     }
 
     /// A texture by the name in the file, decoded once; `None` with a warning where it cannot be had.
-    fn image(&mut self, entry: &str) -> Option<Arc<ImageTexture>> {
+    fn image(&mut self, entry: &str, encoding: Encoding) -> Option<Arc<ImageTexture>> {
         // Options such as `-s 1 1 1` come first; the name is what follows the last of them.
         let name = texture_name(entry);
-        if let Some(known) = self.images.get(name) {
+        let key = (name.to_owned(), encoding);
+        if let Some(known) = self.images.get(&key) {
             return known.clone();
         }
-        let image = match self.decode(name) {
+        let image = match self.decode(name, encoding) {
             Ok(image) => Some(Arc::new(image)),
             Err(why) => {
                 self.warnings.push(format!("texture '{name}': {why}; its colour is used instead"));
                 None
             }
         };
-        self.images.insert(name.into(), image.clone());
+        self.images.insert(key, image.clone());
         image
     }
 
-    fn decode(&mut self, name: &str) -> Result<ImageTexture, String> {
+    fn decode(&mut self, name: &str, encoding: Encoding) -> Result<ImageTexture, String> {
         let bytes = self.resolver.read(name, self.limits.file_bytes).map_err(|e| e.to_string())?;
         let left = self.limits.all_image_bytes.saturating_sub(self.image_bytes);
+        let most = self.limits.image_bytes.min(left);
+        let open = || image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
+        // Four bytes a pixel are kept, whatever the decoder itself needs.
+        let (w, h) = open().map_err(|e| e.to_string())?.into_dimensions().map_err(|e| e.to_string())?;
+        let kept = u64::from(w).saturating_mul(u64::from(h)).saturating_mul(4);
+        if kept > most {
+            return Err(format!("{w} x {h} pixels need {kept} bytes, more than the {most} allowed"));
+        }
         let mut limits = image::Limits::default();
         limits.max_image_width = Some(self.limits.image_side);
         limits.max_image_height = Some(self.limits.image_side);
-        limits.max_alloc = Some(self.limits.image_bytes.min(left));
-        let mut reader = image::ImageReader::new(std::io::Cursor::new(bytes))
-            .with_guessed_format()
-            .map_err(|e| e.to_string())?;
+        limits.max_alloc = Some(most);
+        let mut reader = open().map_err(|e| e.to_string())?;
         reader.limits(limits);
         let rgba = reader.decode().map_err(|e| e.to_string())?.into_rgba8();
         self.image_bytes += rgba.as_raw().len() as u64;
         let (w, h) = rgba.dimensions();
-        ImageTexture::from_u8(w, h, 4, rgba.into_raw(), Encoding::Srgb).map_err(|e| e.to_string())
+        ImageTexture::from_u8(w, h, 4, rgba.into_raw(), encoding).map_err(|e| e.to_string())
     }
+}
+
+/// The texture entries of a material that mean nothing here, in the order of their names.
+fn unread_textures(m: &tobj::Material) -> Vec<&str> {
+    let is_texture = |k: &&str| k.starts_with("map_") || matches!(*k, "norm" | "disp" | "decal" | "refl");
+    let mut unread: Vec<&str> = m.unknown_param.keys().map(String::as_str).filter(is_texture).collect();
+    let known = [
+        ("map_Ka", &m.ambient_texture),
+        ("map_Ks", &m.specular_texture),
+        ("map_Ns", &m.shininess_texture),
+        ("map_Bump", &m.normal_texture),
+    ];
+    unread.extend(known.into_iter().filter(|(_, t)| t.is_some()).map(|(key, _)| key));
+    unread.sort_unstable();
+    unread
 }
 
 /// Radiance a material emits, if any.

@@ -27,7 +27,9 @@ pub(crate) fn add(
     let mut mesh = TriangleMesh::new(positions, indices).map_err(fail)?;
     let mut fits = |what: &str, n: usize| {
         if n != 0 && n != count {
-            report.warnings.push(format!("{file}, object '{}': {n} {what} for {count} vertices; dropped", model.name));
+            report
+                .warnings
+                .push(format!("{file}, object '{}': {n} {what} for {count} vertices; dropped", model.name));
         }
         n == count
     };

@@ -1,10 +1,12 @@
 //! Wavefront OBJ with MTL materials, parsed by `tobj` from text that has been made safe for it.
 
+mod clean;
 mod materials;
 mod mesh;
 mod text;
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use etendue_scene::SceneBuilder;
@@ -32,7 +34,9 @@ pub enum ObjError {
         text: String,
     },
     /// A line beyond the limit.
-    #[error("{file}, line {line}: longer than the limit of {limit} bytes; this is no OBJ file, or split the line with '\\'")]
+    #[error(
+        "{file}, line {line}: longer than the limit of {limit} bytes; this is no OBJ file, or split the line with '\\'"
+    )]
     LineTooLong {
         /// The file.
         file: String,
@@ -57,6 +61,12 @@ pub enum ObjError {
         /// The reason.
         source: etendue_geometry::MeshError,
     },
+}
+
+impl ObjError {
+    pub(crate) fn syntax(file: &str, line: usize, what: String, text: &str) -> Self {
+        Self::Syntax { file: file.into(), line, what, text: text.trim().chars().take(80).collect() }
+    }
 }
 
 /// What came out of a file, and what did not.
@@ -99,18 +109,20 @@ pub fn read(
     let source = text::Safe::obj(name, bytes, limits, &mut report.warnings)?;
     let mut lines = source.reader();
     let warnings = RefCell::new(Vec::new());
-    let options = tobj::LoadOptions {
-        triangulate: true,
-        single_index: true,
-        ignore_points: true,
-        ignore_lines: true,
-    };
+    let options =
+        tobj::LoadOptions { triangulate: true, single_index: true, ignore_points: true, ignore_lines: true };
     let parsed = tobj::load_obj_buf(&mut lines, &options, |mtl| {
         Ok(materials::parse(&mtl.to_string_lossy(), resolver, limits, &mut warnings.borrow_mut()))
     });
     report.warnings.append(&mut warnings.borrow_mut());
     let (models, mtl) = parsed.map_err(|e| source.error(lines.line(), e))?;
     let mtl = mtl.unwrap_or_default();
+    let known: BTreeSet<&str> = mtl.iter().map(|m| m.name.as_str()).collect();
+    for (used, line) in source.used_materials() {
+        if !known.contains(used) {
+            report.warnings.push(format!("{name}, line {line}: no material file has a '{used}'; it is gray"));
+        }
+    }
 
     let mut made = materials::Made::new(&mtl, resolver, limits);
     for model in &models {

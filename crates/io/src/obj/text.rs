@@ -2,12 +2,13 @@ use std::io::{BufRead, Read};
 
 use crate::Limits;
 use crate::obj::ObjError;
+use crate::obj::clean::{Clean, Dropped, clean};
 
 /// The text of a file, made safe for the parser line by line: valid UTF-8, continuations joined, no line beyond the
-/// limit. Line numbers stay those of the file.
+/// limit, no index that names nothing. Line numbers stay those of the file.
 pub(crate) struct Safe {
     name: String,
-    text: String,
+    clean: Clean,
 }
 
 impl Safe {
@@ -18,43 +19,17 @@ impl Safe {
         limits: &Limits,
         warnings: &mut Vec<String>,
     ) -> Result<Self, ObjError> {
-        let mut text = String::with_capacity(bytes.len());
-        // Lines joined to the one before leave empty ones behind it, so that numbers do not shift.
-        let (mut owed, mut joining) = (0, false);
-        for (i, raw) in bytes.split(|&b| b == b'\n').enumerate() {
-            if raw.len() > limits.line_bytes {
-                return Err(ObjError::LineTooLong { file: name.into(), line: i + 1, limit: limits.line_bytes });
-            }
-            let raw = raw.strip_suffix(b"\r").unwrap_or(raw);
-            let line = String::from_utf8_lossy(raw);
-            if matches!(line, std::borrow::Cow::Owned(_)) {
-                warnings.push(format!("{name}, line {}: not UTF-8; unreadable characters were replaced", i + 1));
-            }
-            if i > 0 && !joining {
-                text.push('\n');
-                text.extend(std::iter::repeat_n('\n', owed));
-                owed = 0;
-            } else if joining {
-                owed += 1;
-            }
-            match line.strip_suffix('\\') {
-                Some(head) => {
-                    text.push_str(head);
-                    text.push(' ');
-                    joining = true;
-                }
-                None => {
-                    text.push_str(&line);
-                    joining = false;
-                }
-            }
-        }
-        Ok(Self { name: name.into(), text })
+        Ok(Self { name: name.into(), clean: clean(name, &joined(name, bytes, limits, warnings)?, warnings)? })
+    }
+
+    /// Material names that faces use, and the line of the first use.
+    pub(crate) fn used_materials(&self) -> impl Iterator<Item = (&str, usize)> {
+        self.clean.used_materials.iter().map(|(name, &line)| (name.as_str(), line))
     }
 
     /// Reads the text and counts lines.
     pub(crate) fn reader(&self) -> Lines<'_> {
-        Lines { rest: self.text.as_bytes(), line: 0 }
+        Lines { rest: self.clean.text.as_bytes(), line: 0 }
     }
 
     /// The parser's complaint, with the place it had reached.
@@ -66,7 +41,9 @@ impl Safe {
             E::ColorParseError => "a vertex with a colour needs exactly six numbers",
             E::NormalParseError => "a normal ('vn') needs three numbers",
             E::TexcoordParseError => "a texture coordinate ('vt') needs two numbers",
-            E::FaceParseError => "a face ('f') needs vertices of the form v, v/vt, v//vn or v/vt/vn, counted from 1",
+            E::FaceParseError => {
+                "a face ('f') needs vertices of the form v, v/vt, v//vn or v/vt/vn, counted from 1"
+            }
             E::FaceVertexOutOfBounds => "a face names a vertex that the file does not have",
             E::FaceTexCoordOutOfBounds => "a face names a texture coordinate that the file does not have",
             E::FaceNormalOutOfBounds => "a face names a normal that the file does not have",
@@ -77,10 +54,51 @@ impl Safe {
             E::MaterialParseError => "a material cannot be read",
             _ => "the line cannot be read",
         };
-        let text = self.text.lines().nth(line.saturating_sub(1)).unwrap_or("");
-        let text = text.chars().take(80).collect();
-        ObjError::Syntax { file: self.name.clone(), line, what: what.into(), text }
+        let text = self.clean.text.lines().nth(line.saturating_sub(1)).unwrap_or("");
+        ObjError::syntax(&self.name, line, what.into(), text)
     }
+}
+
+/// The lines as UTF-8 with continuations joined.
+fn joined(name: &str, bytes: &[u8], limits: &Limits, warnings: &mut Vec<String>) -> Result<String, ObjError> {
+    // A byte order mark would hide the first line's word, and with it the first vertex.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut text = String::with_capacity(bytes.len());
+    // Lines joined to the one before leave empty ones behind it, so that numbers do not shift.
+    let (mut owed, mut joining) = (0, false);
+    let mut unreadable = Dropped::default();
+    for (i, raw) in bytes.split(|&b| b == b'\n').enumerate() {
+        if raw.len() > limits.line_bytes {
+            return Err(ObjError::LineTooLong { file: name.into(), line: i + 1, limit: limits.line_bytes });
+        }
+        let raw = raw.strip_suffix(b"\r").unwrap_or(raw);
+        let line = String::from_utf8_lossy(raw);
+        if matches!(line, std::borrow::Cow::Owned(_)) {
+            unreadable.add(i + 1, line.trim());
+        }
+        if i > 0 && !joining {
+            text.push('\n');
+            text.extend(std::iter::repeat_n('\n', owed));
+            owed = 0;
+        } else if joining {
+            owed += 1;
+        }
+        // A comment that ends in a folder's name is not meant to swallow the next line.
+        let is_comment = !joining && line.trim_start().starts_with('#');
+        match line.strip_suffix('\\').filter(|_| !is_comment) {
+            Some(head) => {
+                text.push_str(head);
+                text.push(' ');
+                joining = true;
+            }
+            None => {
+                text.push_str(&line);
+                joining = false;
+            }
+        }
+    }
+    unreadable.tell(name, "not UTF-8; unreadable characters were replaced", warnings);
+    Ok(text)
 }
 
 /// A reader that knows how many lines were taken from it.
@@ -127,8 +145,8 @@ mod tests {
 
     #[test]
     fn continuations_keep_line_numbers() {
-        let s = Safe::obj("a", b"v 1 \\\n2 \\\r\n3\nf x", &Limits::default(), &mut Vec::new()).unwrap();
-        assert_eq!(s.text, "v 1  2  3\n\n\nf x");
+        let s = Safe::obj("a", b"v 1 \\\n2 \\\r\n3\nf 1 1 1", &Limits::default(), &mut Vec::new()).unwrap();
+        assert_eq!(s.clean.text, "v 1  2  3\n\n\nf 1 1 1\n");
         let mut r = s.reader();
         let mut line = String::new();
         while r.read_line(&mut line).unwrap() > 0 && !line.contains('f') {

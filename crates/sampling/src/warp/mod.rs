@@ -25,7 +25,7 @@ pub use directional::{
     power_cosine_pdf, sphere,
 };
 pub use planar::{DISC_PDF, disc, triangle, triangle_sqrt};
-pub use spherical_rectangle::{RectangleSample, SphericalRectangle};
+pub use spherical_rectangle::{RectangleAxes, RectangleSample, SphericalRectangle};
 pub use spherical_triangle::{SphericalTriangle, TriangleSample};
 
 /// Below this solid angle (sr) a triangle or rectangle is better sampled by area: the density varies little over it,

@@ -19,30 +19,51 @@ const POOL: f64 = 5.0;
 /// Cells are sorted by expectation and pooled to at least 5; a tail that stays below is merged into the last cell.
 /// Cells of expectation 0 that were hit are counted in `impossible`. The total is not assumed to agree: a deficit
 /// shows in the statistic.
+///
+/// ```
+/// let fair = etendue_testkit::stats::chi2_test(&[26, 25, 24, 25], &[25.0; 4]);
+/// assert!(fair.p > 0.9);
+/// let loaded = etendue_testkit::stats::chi2_test(&[60, 13, 14, 13], &[25.0; 4]);
+/// assert!(loaded.p < 1e-10);
+/// ```
 pub fn chi2_test(observed: &[u64], expected: &[f64]) -> Chi2 {
-    let mut cells: Vec<(f64, u64)> = expected.iter().copied().zip(observed.iter().copied()).collect();
-    cells.sort_by(|a, b| a.0.total_cmp(&b.0));
+    chi2_test_within(observed, expected, &[])
+}
+
+/// The same where expectations are known only within `errors` (0 where there are fewer of them than cells): each
+/// deviation counts less its error, so that an inaccurate quadrature costs power and never a false alarm.
+pub fn chi2_test_within(observed: &[u64], expected: &[f64], errors: &[f64]) -> Chi2 {
+    let mut cells: Vec<Counted> = expected
+        .iter()
+        .zip(observed)
+        .enumerate()
+        .map(|(i, (&expected, &seen))| Counted {
+            expected,
+            seen: seen as f64,
+            error: errors.get(i).copied().unwrap_or(0.0),
+        })
+        .collect();
+    cells.sort_by(|a, b| a.expected.total_cmp(&b.expected));
     let mut impossible = 0;
-    let mut pooled: Vec<(f64, f64)> = Vec::new();
-    let (mut e, mut o) = (0.0, 0.0);
-    for (expect, seen) in cells {
-        if expect <= 0.0 || expect.is_nan() {
-            impossible += seen;
+    let mut pooled: Vec<Counted> = Vec::new();
+    let mut pool = Counted::default();
+    for cell in cells {
+        if cell.expected <= 0.0 || cell.expected.is_nan() {
+            impossible += cell.seen as u64;
             continue;
         }
-        e += expect;
-        o += seen as f64;
-        if e >= POOL {
-            pooled.push((e, o));
-            (e, o) = (0.0, 0.0);
+        pool = pool.plus(cell);
+        if pool.expected >= POOL {
+            pooled.push(pool);
+            pool = Counted::default();
         }
     }
     match pooled.last_mut() {
-        Some(last) => *last = (last.0 + e, last.1 + o),
-        None if e > 0.0 => pooled.push((e, o)),
+        Some(last) => *last = last.plus(pool),
+        None if pool.expected > 0.0 => pooled.push(pool),
         None => {}
     }
-    let statistic: f64 = pooled.iter().map(|(e, o)| (o - e) * (o - e) / e).sum();
+    let statistic: f64 = pooled.iter().map(Counted::term).sum();
     let dof = pooled.len().saturating_sub(1);
     let p = if dof == 0 {
         1.0
@@ -54,6 +75,25 @@ pub fn chi2_test(observed: &[u64], expected: &[f64]) -> Chi2 {
         statrs::function::gamma::gamma_ur(0.5 * dof as f64, 0.5 * statistic)
     };
     Chi2 { statistic, dof, p, impossible }
+}
+
+/// A cell, or several pooled.
+#[derive(Clone, Copy, Default)]
+struct Counted {
+    expected: f64,
+    seen: f64,
+    error: f64,
+}
+
+impl Counted {
+    fn plus(self, o: Self) -> Self {
+        Self { expected: self.expected + o.expected, seen: self.seen + o.seen, error: self.error + o.error }
+    }
+
+    fn term(&self) -> f64 {
+        let off = ((self.seen - self.expected).abs() - self.error).max(0.0);
+        off * off / self.expected
+    }
 }
 
 #[cfg(test)]
@@ -71,5 +111,7 @@ mod tests {
         assert!((c.p - 0.0904).abs() < 1e-3, "{}", c.p);
         let c = chi2_test(&[1, 0, 2, 100, 3], &[1.0, 1.0, 2.0, 99.0, 0.0]);
         assert_eq!((c.dof, c.impossible), (0, 3), "the small cells are pooled into the large one");
+        let c = chi2_test_within(&[34, 16, 25, 25], &e, &[9.0, 8.0]);
+        assert!((c.statistic - 0.04).abs() < 1e-12, "what the error covers does not count");
     }
 }

@@ -7,7 +7,7 @@ mod chi2;
 mod ks;
 mod mean;
 
-pub use chi2::{Chi2, chi2_test};
+pub use chi2::{Chi2, chi2_test, chi2_test_within};
 pub use ks::ks_uniform;
 pub use mean::{MeanTest, binomial_test, mean_test, paired_test, welch_test};
 
@@ -20,6 +20,13 @@ pub fn sidak(alpha: f64, tests: usize) -> f64 {
 /// Two-sided p-value of a standard normal deviate.
 pub fn p_of_z(z: f64) -> f64 {
     if z.is_nan() { 0.0 } else { statrs::function::erf::erfc(z.abs() / std::f64::consts::SQRT_2) }
+}
+
+/// Two-sided p-value of a deviation `off` with standard error `se`, of which `allowed` needs no explanation: the error of
+/// a quadrature, or rounding.
+pub fn p_of_z_beyond(off: f64, allowed: f64, se: f64) -> f64 {
+    let beyond = off.abs() - allowed;
+    if beyond <= 0.0 { 1.0 } else { p_of_z(beyond / se) }
 }
 
 /// Two-sided p-value of Student's t with `dof` degrees of freedom.
