@@ -16,10 +16,10 @@ impl Mirror {
     }
 }
 
-/// The one sample of a delta reflection; `None` for a direction in the surface.
+/// The one sample of a delta reflection; `None` for a direction in the surface, or one that is not finite.
 #[inline]
 pub(crate) fn reflect_about_z(wo: Vec3A, weight: Spectrum, pdf: f32) -> Option<BsdfSample> {
-    if !(wo.z.abs() > 0.0) {
+    if !(wo.z.abs() > 0.0 && wo.is_finite()) {
         return None;
     }
     let wi = Vec3A::new(-wo.x, -wo.y, wo.z);

@@ -89,5 +89,32 @@ pub fn write_exr(path: &Path, film: &Film, info: &ExrInfo) -> Result<(), WriteEr
         .non_parallel()
         .to_buffered(&mut bytes)
         .map_err(|e| WriteError::Encode { path: path.into(), reason: e.to_string() })?;
-    write_atomically(path, &bytes.into_inner())
+    let mut bytes = bytes.into_inner();
+    sort_attributes(&mut bytes);
+    write_atomically(path, &bytes)
+}
+
+/// Sorts the attributes of a one-part file's header by name. The encoder keeps them in a hash map and writes them in
+/// another order each time; the same film must give the same bytes. The header's length stays, so no offset moves.
+fn sort_attributes(file: &mut [u8]) {
+    /// Magic number and version.
+    const START: usize = 8;
+    fn attribute(rest: &[u8]) -> Option<usize> {
+        let name = rest.iter().position(|&b| b == 0)?;
+        let kind = rest.get(name + 1..)?.iter().position(|&b| b == 0)?;
+        let size_at = name + kind + 2;
+        let size = u32::from_le_bytes(rest.get(size_at..size_at + 4)?.try_into().ok()?);
+        (size_at + 4).checked_add(size as usize).filter(|&end| end <= rest.len())
+    }
+    let mut found = Vec::new();
+    let mut at = START;
+    while file.get(at).is_some_and(|&b| b != 0) {
+        let Some(length) = file.get(at..).and_then(attribute) else { return };
+        found.push(file[at..at + length].to_vec());
+        at += length;
+    }
+    found.sort();
+    if let Some(header) = file.get_mut(START..at) {
+        header.copy_from_slice(&found.concat());
+    }
 }

@@ -163,7 +163,7 @@ impl Random {
         unit_f32(self.bits())
     }
 
-    /// Uniform in `[0, n)`.
+    /// Uniform below `n`.
     pub(crate) fn below(&mut self, n: usize) -> usize {
         ((u64::from(self.bits()) * n as u64) >> 32) as usize
     }

@@ -266,7 +266,7 @@ fn density(
         let (e, p) = bsdf.eval_pdf(wo, wi, mode);
         [f64::from(p), f64::from(e.mean())]
     };
-    let partition = Partition::new(&scouts, &directions, n, spread.mean(), &both);
+    let partition = Partition::new(&scouts, &directions, n, spread.mean(), random, &both);
     fits(&partition, directions.len(), n, judge)?;
 
     let (mean, se) = (spread.mean(), spread.standard_error());

@@ -1,8 +1,8 @@
 use etendue_core::{Fingerprint, Vec2};
-use etendue_sampling::{Dim, Moments, Sampler, Slot};
+use etendue_sampling::{Dim, Moments, Sampler, Slot, unit_f32};
 
 use crate::budget::{Budget, Failure, Judge, Outcome};
-use crate::stats::{chi2_test, ks_uniform, mean_test};
+use crate::stats::{chi2_test, ks_uniform, mean_test, p_of_z, p_of_z_beyond};
 
 /// Independent streams looked at.
 const STREAMS: usize = 20_000;
@@ -42,18 +42,24 @@ const APART: [(Dim, Dim); 6] = [
 
 /// Tests a sampler against the contract of [`Sampler`]. `make` gives the sampler of a seed.
 ///
-/// Numbers are a pure function of (seed, stream, index, dimension), whatever the order of the draws; they lie in
-/// `[0, 1)` and derive from `bits_1d`; `bounce` says what the single draws say. Over streams every dimension is
-/// uniform (Kolmogorov–Smirnov), every pair fills the square and separate draws are independent (χ² on 16 × 16);
-/// neighbouring streams, seeds, replicates and forks are independent; estimates are unbiased over seeds for every
-/// number of samples; and no two-dimensional draw does worse than independent numbers on a smooth integrand.
+/// * Numbers are a pure function of (seed, stream, index, dimension), whatever the order of the draws; they lie in
+///   `[0, 1)` on the grid of multiples of 2⁻²⁴ and derive from `bits_1d`; `bounce` says what the single draws say;
+///   forks are equal for equal keys and differ for others.
+/// * Over streams every dimension is uniform at every index (Kolmogorov–Smirnov), every pair fills the square, and
+///   separate draws know nothing of each other (χ² on 16 × 16, and correlation).
+/// * Neighbouring streams, seeds, replicates and forks are independent.
+/// * Over seeds, the mean of `spp` samples of a smooth function is unbiased, and its mean square error is no larger
+///   than that of independent numbers.
 ///
-/// Power: a marginal wrong by 2 %, a correlation of 5 %, or a bias of 1 % is rejected.
+/// Power at effort 1, on 99 of 100 seeds: a distribution function off by 0.04, a correlation of 0.07, a bias of 0.3 %,
+/// an error a third larger. Not seen: correlation between draws that are not among those tested; a number of
+/// `get_2d` that is 1 less often than one draw in a million.
 ///
 /// # Errors
 /// The first [`Failure`].
 pub fn check_sampler<S: Sampler>(make: &dyn Fn(u64) -> S, budget: &Budget) -> Outcome {
-    let mut judge = Judge::new(budget, SINGLES.len() + PAIRS.len() + APART.len() + 4 + 2 * PAIRS.len());
+    let joint = PAIRS.len() + APART.len() + 4;
+    let mut judge = Judge::new(budget, SINGLES.len() + 2 * joint + 2 * PAIRS.len());
     let seed = budget.seed;
     pure(make, seed, &mut judge)?;
     uniform(make, seed, budget, &mut judge)?;
@@ -80,15 +86,19 @@ fn pure<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, judge: &mut Judge) -> Re
             judge.require(a == b && a == u.get_1d(dim), "pure", || {
                 format!("{dim:?} of stream {stream}, index {index} gave {a} and {b}")
             })?;
-            judge.require((0.0..1.0).contains(&a), "range", || format!("{a}"))?;
-            judge.require(a == etendue_sampling::unit_f32(u.bits_1d(dim)), "bits", || {
-                format!("get_1d is not bits_1d as a float in {dim:?}")
+            judge.require(on_grid(a), "range", || format!("{a} in {dim:?}"))?;
+            let bits = u.bits_1d(dim);
+            let wide = f64::from(bits) / 4_294_967_296.0;
+            judge.require(a == unit_f32(bits) && u.get_1d_f64(dim) == wide, "bits", || {
+                format!("get_1d or get_1d_f64 is not bits_1d as a float in {dim:?}")
             })?;
         }
         for &dim in &PAIRS {
             let p = u.get_2d(dim);
-            let inside = (0.0..1.0).contains(&p.x) && (0.0..1.0).contains(&p.y);
-            judge.require(inside && p == again.get_2d(dim), "pure", || format!("{p} in {dim:?}"))?;
+            judge.require(p == again.get_2d(dim), "pure", || format!("{p} in {dim:?}"))?;
+            judge.require(on_grid(p.x) && on_grid(p.y), "range", || {
+                format!("{p} in {dim:?} is not of multiples of 2^-24 in [0, 1): finer numbers round to 1 some day")
+            })?;
         }
         for depth in [0, 1, 2, 30] {
             let d = u.bounce(depth);
@@ -114,62 +124,82 @@ fn pure<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, judge: &mut Judge) -> Re
     judge.require(opaque || print(seed) != print(seed ^ 1), "fingerprint", || "it does not hold the seed".into())
 }
 
-fn uniform<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, budget: &Budget, judge: &mut Judge) -> Result<(), Failure> {
+/// Whether a number lies in `[0, 1)` and is a multiple of 2⁻²⁴.
+fn on_grid(x: f32) -> bool {
+    (0.0..1.0).contains(&x) && (x * 16_777_216.0).fract() == 0.0
+}
+
+fn uniform<S: Sampler>(
+    make: &dyn Fn(u64) -> S,
+    seed: u64,
+    budget: &Budget,
+    judge: &mut Judge,
+) -> Result<(), Failure> {
     let s = make(seed);
     let n = budget.samples(STREAMS);
+    let start = |i: usize| s.start(i as u64, index_of(i, s.spp()));
     for dim in SINGLES {
-        let mut xs: Vec<f64> =
-            (0..n).map(|i| f64::from(s.start(i as u64, index_of(i, s.spp())).get_1d(dim))).collect();
+        let mut xs: Vec<f64> = (0..n).map(|i| start(i).get_1d_f64(dim)).collect();
         judge.p_value(ks_uniform(&mut xs), "uniform", || format!("{dim:?} over streams"))?;
     }
     for dim in PAIRS {
-        let points = (0..n).map(|i| s.start(i as u64, index_of(i, s.spp())).get_2d(dim));
-        judge.p_value(square(points, n), "pair", || format!("{dim:?} does not fill the square over streams"))?;
+        let points = (0..n).map(|i| start(i).get_2d(dim));
+        square(points, judge, "pair", || format!("{dim:?} does not fill the square over streams"))?;
     }
     for (a, b) in APART {
-        let points = (0..n).map(|i| {
-            let u = s.start(i as u64, index_of(i, s.spp()));
-            Vec2::new(u.get_1d(a), u.get_1d(b))
-        });
-        judge.p_value(square(points, n), "apart", || format!("{a:?} and {b:?} know of each other"))?;
+        let points = (0..n).map(|i| start(i)).map(|u| Vec2::new(u.get_1d(a), u.get_1d(b)));
+        square(points, judge, "apart", || format!("{a:?} and {b:?} know of each other"))?;
     }
     Ok(())
 }
 
-/// p-value of χ² for points in the unit square.
-fn square(points: impl Iterator<Item = Vec2>, n: usize) -> f64 {
+/// Two tests that points are uniform in the unit square: χ² of cells, and correlation, which sees faint slopes.
+fn square(
+    points: impl Iterator<Item = Vec2>,
+    judge: &mut Judge,
+    test: &'static str,
+    what: impl Fn() -> String,
+) -> Result<(), Failure> {
     let mut cells = vec![0u64; SIDE * SIDE];
+    let (mut n, mut product) = (0.0, 0.0);
     for p in points {
         let at = |x: f32| ((x * SIDE as f32) as usize).min(SIDE - 1);
         cells[at(p.x) * SIDE + at(p.y)] += 1;
+        product += (f64::from(p.x) - 0.5) * (f64::from(p.y) - 0.5);
+        n += 1.0;
     }
-    chi2_test(&cells, &vec![n as f64 / (SIDE * SIDE) as f64; SIDE * SIDE]).p
+    let chi2 = chi2_test(&cells, &vec![n / (SIDE * SIDE) as f64; SIDE * SIDE]);
+    judge.p_value(chi2.p, test, &what)?;
+    // Each factor has variance 1/12.
+    let correlation = product * 12.0 / n;
+    judge.p_value(p_of_z(correlation * n.sqrt()), test, || format!("{}: correlation {correlation}", what()))
 }
 
-fn independent<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, budget: &Budget, judge: &mut Judge) -> Result<(), Failure> {
+fn independent<S: Sampler>(
+    make: &dyn Fn(u64) -> S,
+    seed: u64,
+    budget: &Budget,
+    judge: &mut Judge,
+) -> Result<(), Failure> {
     let s = make(seed);
     let n = budget.samples(STREAMS);
     let dim = Dim::bounce(0, Slot::Light);
     let pair = |a: S, b: S| Vec2::new(a.get_1d(dim), b.get_1d(dim));
-    let points = (0..n).map(|i| pair(s.start(2 * i as u64, 3), s.start(2 * i as u64 + 1, 3)));
-    judge.p_value(square(points, n), "streams", || "neighbouring streams know of each other".into())?;
-    let points = (0..n).map(|i| {
-        let seed = seed.wrapping_mul(77).wrapping_add(2 * i as u64);
-        pair(make(seed).start(5, 3), make(seed + 1).start(5, 3))
+    let points = (0..n as u64).map(|i| pair(s.start(2 * i, 3), s.start(2 * i + 1, 3)));
+    square(points, judge, "streams", || "neighbouring streams know of each other".into())?;
+    let points = (0..n as u64).map(|i| {
+        let seed = seed.wrapping_mul(77).wrapping_add(2 * i);
+        pair(make(seed).start(5, 3), make(seed.wrapping_add(1)).start(5, 3))
     });
-    judge.p_value(square(points, n), "seeds", || "neighbouring seeds know of each other".into())?;
-    let points = (0..n).map(|i| {
-        let u = s.start(i as u64, 3);
-        pair(u, u.fork(i as u32 % 5))
-    });
-    judge.p_value(square(points, n), "fork", || "a fork knows of its origin".into())?;
-    // Sample 0 of replicates 0 and 1.
-    let p = if s.replicates() > 1 {
-        square((0..n).map(|i| pair(s.start(i as u64, 0), s.start(i as u64, 1))), n)
-    } else {
-        1.0
-    };
-    judge.p_value(p, "replicates", || "replicates know of each other".into())
+    square(points, judge, "seeds", || "neighbouring seeds know of each other".into())?;
+    let points = (0..n).map(|i| s.start(i as u64, 3)).enumerate().map(|(i, u)| pair(u, u.fork(i as u32 % 5)));
+    square(points, judge, "fork", || "a fork knows of its origin".into())?;
+    if s.replicates() > 1 {
+        // Sample 0 of replicates 0 and 1.
+        let points = (0..n as u64).map(|i| pair(s.start(i, 0), s.start(i, 1)));
+        square(points, judge, "replicates", || "replicates know of each other".into())?;
+    }
+    Ok(())
 }
 
 /// A smooth integrand with mean 1 that couples its arguments.
@@ -199,10 +229,31 @@ fn unbiased<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, budget: &Budget, jud
         judge.p_value(test.p, "bias", || format!("{spp} samples of {dim:?} give {} instead of 1", test.estimate))?;
         // The mean square error, against that of independent numbers.
         let iid = SMOOTH_VARIANCE / f64::from(spp);
-        let excess = (m.mean() - iid) / m.standard_error().max(f64::MIN_POSITIVE);
-        judge.p_value(if excess <= 0.0 { 1.0 } else { crate::stats::p_of_z(excess) }, "error", || {
+        let excess = (m.mean() - iid).max(0.0);
+        judge.p_value(p_of_z_beyond(excess, 0.0, m.standard_error()), "error", || {
             format!("{spp} samples of {dim:?}: mean square error {:.2e}, independent numbers have {iid:.2e}", m.mean())
         })?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smooth_integrand_has_mean_one_and_the_variance_stated() {
+        // Σ 1 / (n! (n+1)²) and Σ 2ⁿ / (n! (n+1)²).
+        let (mut mean, mut square, mut term) = (0.0, 0.0, 1.0);
+        let mut power = 1.0;
+        for n in 0..40 {
+            let k = f64::from(n + 1);
+            mean += term / (k * k);
+            square += power * term / (k * k);
+            term /= k;
+            power *= 2.0;
+        }
+        assert!((smooth(Vec2::ZERO) * mean - 1.0).abs() < 1e-12);
+        assert!((square / (mean * mean) - 1.0 - SMOOTH_VARIANCE).abs() < 1e-7, "{}", square / (mean * mean) - 1.0);
+    }
 }

@@ -120,7 +120,8 @@ pub(crate) fn clean(file: &str, text: &str, warnings: &mut Vec<String>) -> Resul
                 }
                 out.text.push_str(key);
                 out.text.push(' ');
-                out.text.push_str(name);
+                // Some exporters escape the spaces of a file's name.
+                out.text.push_str(&if key == "mtllib" { name.replace("\\ ", " ") } else { name.into() });
             }
             "s" | "" => {}
             _ if key.starts_with('#') => {}

@@ -1,0 +1,59 @@
+//! Right BSDFs are accepted, from mirrors over lobes of a thousandth of a radian to full roughness.
+
+mod support;
+
+use etendue_bsdf::{
+    Black, Bsdf, BsdfAt, Conductor, Ggx, Lambert, Masking, MetalFresnel, Mirror, RoughDielectric, SmoothDielectric,
+};
+use etendue_core::Spectrum;
+use etendue_testkit::check_bsdf;
+use support::{Case, FEW, MANY, accept};
+
+fn cases() -> Vec<Case<'static>> {
+    let mut out = Vec::new();
+    let mut add = |name: String, bsdf: Box<dyn Bsdf>| out.push(Case::new(name, move |b| check_bsdf(&*bsdf, b)));
+    let color = Spectrum::rgb(0.2, 0.5, 0.95);
+    add("black".into(), Box::new(Black));
+    add("lambert".into(), Box::new(Lambert::new(color)));
+    add("lambert behind the door".into(), Box::new(BsdfAt::Open(Box::new(Lambert::new(Spectrum::ONE)))));
+    add("mirror".into(), Box::new(Mirror::new(color)));
+    for eta in [1.5, 1.0 / 1.5, 1.0, 1.01, 2.4] {
+        add(format!("smooth dielectric, eta {eta}"), Box::new(SmoothDielectric::new(eta)));
+    }
+    let separable = Masking::Separable;
+    let correlated = Masking::HeightCorrelated;
+    let shapes = [
+        (1e-3, 1e-3, correlated),
+        (1e-3, 1e-3, separable),
+        (1e-2, 1e-2, correlated),
+        (0.1, 0.1, separable),
+        (0.5, 0.5, correlated),
+        (1.0, 1.0, separable),
+        (1.0, 1.0, correlated),
+        (0.02, 0.6, correlated),
+    ];
+    for (x, y, masking) in shapes {
+        let ggx = Ggx::anisotropic(x, y);
+        let metal = Conductor { ggx, masking, fresnel: MetalFresnel::Schlick { f0: color } };
+        add(format!("conductor, alpha {x} {y}, {masking:?}"), Box::new(metal));
+        for eta in [1.5f32, 1.0 / 1.5, 1.1, 2.4] {
+            let glass = RoughDielectric { ggx, eta, masking };
+            add(format!("rough dielectric, alpha {x} {y}, eta {eta:.2}, {masking:?}"), Box::new(glass));
+        }
+    }
+    add("conductor, roughness 0".into(), Box::new(Conductor::gold(0.0)));
+    add("conductor, roughness 0.01, the first rough one".into(), Box::new(Conductor::silver(0.01)));
+    add("rough dielectric, roughness 0".into(), Box::new(RoughDielectric::new(0.0, 1.5)));
+    out
+}
+
+#[test]
+fn few_seeds() {
+    accept(&cases(), FEW, 0.05);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn hundred_seeds() {
+    accept(&cases(), MANY, std::env::var("E").unwrap().parse().unwrap());
+}
