@@ -261,10 +261,16 @@ impl Film {
         for c in p.albedo.iter().chain(&p.normal).flatten().chain(&p.depth) {
             f.bytes(&c.to_le_bytes());
         }
-        for (index, ids) in p.ids.iter().flatten() {
-            f.u64(*index);
-            f.u64(u64::from(ids.inst) << 32 | u64::from(ids.geom));
-            f.u64(u64::from(ids.prim));
+        for hits in &p.hits {
+            f.u64(*hits);
+        }
+        for (pixel, seen) in p.ids.iter().enumerate() {
+            if let Some((index, ids)) = seen {
+                f.u64(pixel as u64);
+                f.u64(*index);
+                f.u64(u64::from(ids.inst) << 32 | u64::from(ids.geom));
+                f.u64(u64::from(ids.prim));
+            }
         }
         f.value()
     }

@@ -48,7 +48,7 @@ impl Perspective {
     /// A pinhole camera placed by `to_world` (any scale in it is ignored), with a vertical field of view in degrees.
     ///
     /// # Errors
-    /// No pixels, or a field of view outside (0, 180).
+    /// No pixels, a field of view outside (0, 180), or axes that lie in one plane.
     pub fn new(to_world: Transform, vertical_fov_deg: f32, size: UVec2) -> Result<Self, CameraError> {
         if size.x == 0 || size.y == 0 {
             return Err(CameraError::NoPixels(size.x, size.y));
@@ -57,6 +57,10 @@ impl Perspective {
             return Err(CameraError::FieldOfView(vertical_fov_deg));
         }
         let half_height = math::tan(vertical_fov_deg.to_radians() * 0.5);
+        // Without scale: a lens and a focus distance are lengths of the world.
+        let [x, y, z, eye] = to_world.columns();
+        let to_world =
+            Transform::from_columns(vector::normalize(x), vector::normalize(y), vector::normalize(z), eye)?;
         Ok(Self { to_world, size, half_height, lens_radius: 0.0, focus_distance: 1.0 })
     }
 

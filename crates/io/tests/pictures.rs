@@ -135,8 +135,10 @@ fn an_unbiased_picture_says_so_and_has_no_planes_it_was_not_given() {
         image.layer_data[0].channel_data.list.iter().map(|c| c.name.to_string()).collect();
     assert_eq!(names, ["B", "G", "R"]);
     let other = &image.layer_data[0].attributes.other;
-    assert!(other.iter().any(|(k, v)| *k == "etendue.bias"
-        && matches!(v, exr::prelude::AttributeValue::Text(t) if *t == "none")));
+    assert!(
+        other.iter().any(|(k, v)| *k == *"etendue.bias"
+            && matches!(v, exr::prelude::AttributeValue::Text(t) if *t == *"none"))
+    );
 }
 
 #[test]

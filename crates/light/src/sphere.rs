@@ -9,7 +9,7 @@ use etendue_texture::{Tex, TexPoint, Texture};
 use crate::emitter::{
     end_on, floored, is_behind, lambertian_power, largest, narrow, positive, radiance, wide,
 };
-use crate::{Light, LightBounds, LightSample, LitPoint};
+use crate::{Light, LightBounds, LightSample, LitPoint, Sides};
 
 /// A sphere that shines. Lambertian, from the outside or from both sides.
 ///
@@ -41,16 +41,31 @@ impl SphereLight {
 
     /// `None` where the sphere sends nothing.
     #[inline]
-    fn view(&self, p: Vec3A) -> Option<View> {
-        let c = wide(self.sphere.center()) - wide(p);
-        let (d2, r2) = (c.dot(c), f64::from(self.sphere.radius()) * f64::from(self.sphere.radius()));
-        if !(d2 > r2) {
+    fn view(&self, at: &LitPoint) -> Option<View> {
+        let c = wide(self.sphere.center()) - wide(at.p);
+        let r = f64::from(self.sphere.radius());
+        let (d2, r2) = (c.dot(c), r * r);
+        // A point of the sphere itself lies in or out by rounding alone: there the side that light leaves by decides.
+        let error = wide(at.p_err);
+        let on_it = (d2.sqrt() - r).abs() <= error.dot(error).sqrt();
+        let within = if on_it { wide(at.ng).dot(c) > 0.0 || at.sides != Sides::Same } else { !(d2 > r2) };
+        if within {
             return self.two_sided.then_some(View::Within);
+        }
+        if on_it {
+            return None;
         }
         let sin2 = r2 / d2;
         // 1 - cos = sin² / (1 + cos).
         let one_minus_cos = (sin2 / (1.0 + (1.0 - sin2).sqrt())) as f32;
         (one_minus_cos > 0.0).then(|| View::Cone { axis: narrow(c / d2.sqrt()), one_minus_cos })
+    }
+
+    /// Whether the point lies inside by more than its own error, so that every direction meets the sphere ahead.
+    fn holds(&self, at: &LitPoint) -> bool {
+        let c = wide(self.sphere.center()) - wide(at.p);
+        let error = wide(at.p_err);
+        c.dot(c).sqrt() + error.dot(error).sqrt() < f64::from(self.sphere.radius())
     }
 
     /// The outward direction of the point where a ray from `p` along `w` meets the sphere: the near point from
@@ -86,7 +101,7 @@ impl SphereLight {
 impl Light for SphereLight {
     #[inline]
     fn sample(&self, at: &LitPoint, _part: u32, u: Vec2) -> Option<LightSample> {
-        let (wi, pdf, within) = match self.view(at.p)? {
+        let (wi, pdf, within) = match self.view(at)? {
             View::Cone { axis, one_minus_cos } => {
                 let local = warp::cone(u, one_minus_cos);
                 (Frame::from_normal(axis).to_world(local), warp::cone_pdf(one_minus_cos), false)
@@ -94,6 +109,9 @@ impl Light for SphereLight {
             View::Within => (warp::sphere(u), warp::SPHERE_PDF, true),
         };
         if is_behind(at, wi) {
+            return None;
+        }
+        if within && wide(wi).dot(wide(self.sphere.center()) - wide(at.p)) <= 0.0 && !self.holds(at) {
             return None;
         }
         let n = self.meet(at.p, wi, within)?;
@@ -108,7 +126,7 @@ impl Light for SphereLight {
         if seen.is_none() || is_behind(at, wi) {
             return 0.0;
         }
-        match self.view(at.p) {
+        match self.view(at) {
             Some(View::Cone { one_minus_cos, .. }) => warp::cone_pdf(one_minus_cos),
             Some(View::Within) => warp::SPHERE_PDF,
             None => 0.0,
