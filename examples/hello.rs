@@ -20,7 +20,7 @@ struct Options {
 }
 
 fn options() -> Result<Options, Box<dyn Error>> {
-    let mut o = Options { model: None, size: 256, spp: 64, out: ".".into() };
+    let mut o = Options { model: None, size: 256, spp: 128, out: ".".into() };
     let mut args = std::env::args().skip(1);
     while let Some(arg) = args.next() {
         let mut value = || args.next().ok_or(format!("{arg} needs a value"));

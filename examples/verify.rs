@@ -53,7 +53,9 @@ fn main() {
     for divide_by_pi in [true, false] {
         println!("my BRDF, dividing by pi: {divide_by_pi}");
         match check_bsdf(&Mine { albedo: 0.8, divide_by_pi }, &budget) {
-            Ok(passed) => println!("  passed {} tests, smallest p-value {:.3}", passed.tests, passed.smallest_p),
+            Ok(passed) => {
+                println!("  passed {} tests, smallest p-value {:.3}", passed.tests, passed.smallest_p)
+            }
             Err(failure) => println!("  failed: {failure}"),
         }
     }

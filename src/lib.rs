@@ -30,8 +30,8 @@ pub mod prelude {
         Geometry, Hit, Parallelogram, Plane, Shape, ShapeHit, ShapeSample, Sphere, Surface, TriangleMesh,
     };
     pub use etendue_integrator::{
-        Context, DirectLight, Integrator, PathTracer, Recorder, RenderOptions, Report, Roulette, Sample, render,
-        replay,
+        Context, DirectLight, Integrator, PathTracer, Recorder, RenderOptions, Report, Roulette, Sample,
+        render, replay,
     };
     pub use etendue_light::{ConstantEnvironment, ImageEnvironment, Light, LightPicker, PointLight};
     pub use etendue_material::{Diffuse, Glass, Material, Metal};

@@ -87,9 +87,16 @@ fn at_the_sphere(u: &Independent) -> Ray {
 fn a_constant_environment_shows_the_albedo() {
     for direct in DIRECT {
         let path = PathTracer { direct, ..PathTracer::default() };
-        let xs = radiance(&in_environment(Diffuse::new(Spectrum::gray(0.6))), &path, 14, 200_000, &at_the_sphere);
+        let xs =
+            radiance(&in_environment(Diffuse::new(Spectrum::gray(0.6))), &path, 14, 200_000, &at_the_sphere);
         assert_mean(&xs, 0.6, 0.005, &format!("Lambert, {direct:?}"));
-        let xs = radiance(&in_environment(MirrorMaterial::new(Spectrum::gray(0.9))), &path, 15, 1000, &at_the_sphere);
+        let xs = radiance(
+            &in_environment(MirrorMaterial::new(Spectrum::gray(0.9))),
+            &path,
+            15,
+            1000,
+            &at_the_sphere,
+        );
         assert_mean(&xs, 0.9, 0.005, &format!("mirror, {direct:?}"));
     }
 }
@@ -117,7 +124,8 @@ fn rough_materials_agree_over_all_ways_of_finding_light() {
             radiance(&scene, &path, 17, 200_000, &at_the_sphere)
         };
         let reference = of(DirectLight::None);
-        for direct in [DirectLight::Light, DirectLight::Bsdf, DirectLight::MisBalance, DirectLight::MisPower] {
+        for direct in [DirectLight::Light, DirectLight::Bsdf, DirectLight::MisBalance, DirectLight::MisPower]
+        {
             let test = etendue_testkit::stats::welch_test(&of(direct), &reference);
             assert!(!test.rejects(1e-6), "{name}, {direct:?}: {test:?}");
             // Light sampling alone is noisy on glossy lobes: it sees 4 %, the others 2 %.

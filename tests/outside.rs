@@ -29,7 +29,12 @@ fn a_bare_crate_builds_on_the_facade_and_on_each_crate_alone() {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let folder = std::env::temp_dir().join(format!("etendue-outside-{}", std::process::id()));
     let facade = format!("etendue = {{ path = {root:?} }}");
-    build(&folder, "facade", &facade, "pub use etendue::prelude::*;\npub fn scene() -> Option<Scene> { SceneBuilder::new().build().ok() }\n");
+    build(
+        &folder,
+        "facade",
+        &facade,
+        "pub use etendue::prelude::*;\npub fn scene() -> Option<Scene> { SceneBuilder::new().build().ok() }\n",
+    );
     for entry in std::fs::read_dir(root.join("crates")).expect("crates") {
         let path = entry.expect("entry").path();
         let name = path.file_name().and_then(|n| n.to_str()).expect("name").to_owned();

@@ -29,7 +29,8 @@ fn film(k: f32) -> Film {
         .after(&Transform::rotation(Vec3A::new(1.0, 2.0, 0.5), 0.7))
         .unwrap();
     b.instance(group, turned);
-    let panel = Parallelogram::new(Vec3A::new(-0.6, 2.0, -0.4) * k, Vec3A::X * (1.1 * k), Vec3A::Z * (0.8 * k));
+    let panel =
+        Parallelogram::new(Vec3A::new(-0.6, 2.0, -0.4) * k, Vec3A::X * (1.1 * k), Vec3A::Z * (0.8 * k));
     let panel = b.add(panel.unwrap(), gray);
     b.emit(panel, Emission::new(Spectrum::rgb(6.0, 5.0, 4.0)).two_sided());
     let lamp = b.add(Geometry::mesh(scaled(meshes::cuboid(Vec3A::splat(1.6), Vec3A::splat(1.9)))), gray);

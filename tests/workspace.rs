@@ -76,7 +76,8 @@ fn dependency_edges_are_the_ones_of_the_design() {
 
 #[test]
 fn one_version_of_glam() {
-    let lock = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.lock")).expect("Cargo.lock");
+    let lock =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.lock")).expect("Cargo.lock");
     assert_eq!(lock.matches("\nname = \"glam\"\n").count(), 1);
 }
 

@@ -5,8 +5,13 @@ use etendue::prelude::*;
 use etendue_testkit::stats::{MeanTest, mean_test};
 
 /// Every way of finding direct light.
-pub const DIRECT: [DirectLight; 5] =
-    [DirectLight::None, DirectLight::Light, DirectLight::Bsdf, DirectLight::MisBalance, DirectLight::MisPower];
+pub const DIRECT: [DirectLight; 5] = [
+    DirectLight::None,
+    DirectLight::Light,
+    DirectLight::Bsdf,
+    DirectLight::MisBalance,
+    DirectLight::MisPower,
+];
 
 /// `n` independent samples of the radiance along rays that `ray` makes, mean of the channels.
 pub fn radiance(
@@ -36,11 +41,19 @@ pub fn assert_mean(samples: &[f64], truth: f64, power: f64, what: &str) {
 
 /// As [`assert_mean`], printing the figures.
 pub fn print_mean(test: &MeanTest, what: &str) {
-    println!("{what}: {:.5} ± {:.5} (true {:.5}), p = {:.3}", test.estimate, test.standard_error, test.truth, test.p);
+    println!(
+        "{what}: {:.5} ± {:.5} (true {:.5}), p = {:.3}",
+        test.estimate, test.standard_error, test.truth, test.p
+    );
 }
 
 /// A picture of a scene with the default integrator and one replicate.
-pub fn film_of<S: Sampler>(scene: &Scene, camera: &dyn Camera, sampler: S, options: &RenderOptions<'_>) -> Film {
+pub fn film_of<S: Sampler>(
+    scene: &Scene,
+    camera: &dyn Camera,
+    sampler: S,
+    options: &RenderOptions<'_>,
+) -> Film {
     let mut film = Film::new(camera.resolution(), sampler.replicates()).expect("a film");
     render(scene, camera, &PathTracer::default(), sampler, &mut film, options).expect("fits");
     film

@@ -40,6 +40,8 @@ pub struct BuildReport {
     pub primitives: usize,
     /// Triangles of exactly zero area: never hit.
     pub dropped_degenerate: usize,
+    /// Triangles with the corners of an earlier one of their mesh: an earlier one wins every tie.
+    pub dropped_duplicates: usize,
     /// Triangles and shapes that are not finite or beyond 2⁶⁰: never hit.
     pub dropped_non_finite: usize,
     /// Nodes of all trees.
@@ -57,6 +59,7 @@ impl BuildReport {
     pub(crate) fn add(&mut self, o: &Self) {
         self.primitives += o.primitives;
         self.dropped_degenerate += o.dropped_degenerate;
+        self.dropped_duplicates += o.dropped_duplicates;
         self.dropped_non_finite += o.dropped_non_finite;
         self.nodes += o.nodes;
         self.depth = self.depth.max(o.depth);

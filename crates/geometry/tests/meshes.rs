@@ -295,3 +295,14 @@ fn sphere_parameters_agree_between_hits_samples_and_surfaces() {
         }
     }
 }
+
+#[test]
+fn triangles_of_the_same_corners_are_kept_once() {
+    let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::X, Vec3::new(-0.0, 1.0, 0.0)];
+    // Turned, mirrored, and by other vertices at the same places; then one that differs in a corner.
+    let indices = vec![[0, 1, 2], [1, 2, 0], [2, 1, 0], [0, 4, 5], [0, 1, 3]];
+    let mesh = TriangleMesh::new(positions, indices).unwrap();
+    assert_eq!(mesh.report().duplicate, 3);
+    let dropped: Vec<bool> = (0..5).map(|prim| mesh.is_degenerate(prim)).collect();
+    assert_eq!(dropped, [false, true, true, true, false]);
+}

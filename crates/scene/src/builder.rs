@@ -243,9 +243,11 @@ impl SceneBuilder {
             None => Box::new(TreeAccel::build(&world, &BuildOptions::default(), &|| progress.cancelled())?),
         };
         let radius = accel.bounds().radius();
+        let picking_radius = picking_radius(radius, &emitters.lights);
         let picker = match self.picker.take() {
-            Some(make) => make(&emitters.lights, radius),
-            None => PowerPicker::new(&emitters.lights, radius).map(|p| Box::new(p) as Box<dyn LightPicker>),
+            Some(make) => make(&emitters.lights, picking_radius),
+            None => PowerPicker::new(&emitters.lights, picking_radius)
+                .map(|p| Box::new(p) as Box<dyn LightPicker>),
         };
         census::take(&world, &self.materials, &self.geom_materials, &emitters, &mut report);
         report.memory.hierarchy = accel.bytes();
@@ -261,4 +263,15 @@ impl SceneBuilder {
             radius,
         }))
     }
+}
+
+/// The radius by which lights at infinity are compared with others. Where nothing is bounded (a plane under a sky) the
+/// lights' own places give it, or else it is 1: a sky must never be worth nothing.
+fn picking_radius(radius: f32, lights: &[Arc<dyn Light>]) -> f32 {
+    if radius > 0.0 {
+        return radius;
+    }
+    let places = lights.iter().flat_map(|l| (0..l.parts()).filter_map(|p| l.bounds(p)));
+    let around = places.fold(etendue_core::Aabb::EMPTY, |b, l| b.union(l.bounds)).radius();
+    if around > 0.0 && around.is_finite() { around } else { 1.0 }
 }

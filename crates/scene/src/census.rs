@@ -41,7 +41,9 @@ pub(crate) fn take(
                 let r = mesh.report();
                 report.degenerate_triangles += r.degenerate as u64;
                 report.non_finite_triangles += r.non_finite as u64;
-                report.triangles += (mesh.triangle_count() - r.degenerate - r.non_finite) as u64;
+                report.duplicate_triangles += r.duplicate as u64;
+                report.triangles +=
+                    (mesh.triangle_count() - r.degenerate - r.non_finite - r.duplicate) as u64;
                 if !mesh.normals().is_empty() {
                     needs |= Needs::SHADING_NORMALS;
                 }

@@ -19,7 +19,7 @@ pub struct Preset {
 }
 
 /// Radiance of the box's lamp, W·m⁻²·sr⁻¹.
-const LAMP: Spectrum = Spectrum::rgb(5.2, 4.4, 3.2);
+const LAMP: Spectrum = Spectrum::rgb(3.4, 2.9, 2.2);
 
 /// The walls of a box one metre wide with a lamp in its ceiling, open toward the camera (after Goral et al. 1984).
 pub fn empty_cornell_box() -> Preset {
@@ -42,7 +42,7 @@ pub fn empty_cornell_box() -> Preset {
     wall(corner, x, y, white);
     wall(corner, y, z, red);
     wall(corner + x, z, y, green);
-    let opening = wall(Vec3A::new(-0.25, 0.999, -0.22), x * 0.5, z * 0.44, lamp);
+    let opening = wall(Vec3A::new(-0.3, 0.999, -0.3), x * 0.6, z * 0.6, lamp);
     if let Some(opening) = opening {
         b.emit(opening, Emission::new(LAMP));
     }
@@ -59,7 +59,7 @@ pub fn cornell_box() -> Preset {
     let mut p = empty_cornell_box();
     let b = &mut p.builder;
     let glass = b.material(Glass::new(1.5));
-    let gold = b.material(Metal::gold(0.3));
+    let gold = b.material(Metal::gold(0.5));
     let blue = b.material(Diffuse::new(Spectrum::rgb(0.2, 0.3, 0.65)));
     let spheres = [(Vec3A::new(-0.24, 0.17, 0.18), 0.17, glass), (Vec3A::new(0.22, 0.2, -0.2), 0.2, gold)];
     for (center, radius, material) in spheres {

@@ -15,6 +15,8 @@ pub struct SceneReport {
     pub instances: u64,
     /// Triangles without area, dropped.
     pub degenerate_triangles: u64,
+    /// Triangles with the corners of an earlier one of their mesh, dropped.
+    pub duplicate_triangles: u64,
     /// Triangles with a vertex that is not finite or beyond 2⁶⁰, dropped.
     pub non_finite_triangles: u64,
     /// Lights kept.
@@ -61,6 +63,7 @@ impl fmt::Display for SceneReport {
         )?;
         for (n, what) in [
             (self.degenerate_triangles, "triangles without area dropped"),
+            (self.duplicate_triangles, "triangles that stand twice dropped"),
             (self.non_finite_triangles, "triangles with unusable vertices dropped"),
             (self.zero_power_lights, "lights that emit nothing dropped"),
         ] {

@@ -40,7 +40,8 @@ pub fn bench_accel(accel: &dyn Accel, n: usize, clock: &dyn Clock) -> Vec<AccelS
             Ray::new(eye, etendue_core::vector::normalize(at - eye))
         })
         .collect();
-    let hits: Vec<Vec3A> = primary.iter().filter_map(|r| accel.intersect(r).map(|h| r.at(h.t * 0.999))).collect();
+    let hits: Vec<Vec3A> =
+        primary.iter().filter_map(|r| accel.intersect(r).map(|h| r.at(h.t * 0.999))).collect();
     let from = |i: usize| if hits.is_empty() { center } else { hits[(i * 7919) % hits.len()] };
     let diffuse: Vec<Ray> = (0..n).map(|i| Ray::new(from(i), warp::sphere(draw(1, i, Dim::FILM)))).collect();
     let short: Vec<Ray> = (0..n)
@@ -61,7 +62,12 @@ pub fn bench_accel(accel: &dyn Accel, n: usize, clock: &dyn Clock) -> Vec<AccelS
     let mut out = vec![closest("primary", &primary), closest("diffuse", &diffuse)];
     let start = clock.seconds();
     let blocked = short.iter().filter(|r| accel.occluded(r)).count();
-    out.push(AccelSpeed { kind: "short any", rays: short.len(), hits: blocked, seconds: clock.seconds() - start });
+    out.push(AccelSpeed {
+        kind: "short any",
+        rays: short.len(),
+        hits: blocked,
+        seconds: clock.seconds() - start,
+    });
     out.push(closest("lines", &lines));
     out
 }

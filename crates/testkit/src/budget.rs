@@ -114,7 +114,11 @@ pub(crate) struct Judge {
 impl Judge {
     pub(crate) fn new(budget: &Budget, statistical_tests: usize) -> Self {
         let level = crate::stats::sidak(budget.alpha, statistical_tests);
-        Self { level, expected: statistical_tests, passed: Passed { tests: 0, statistical: 0, smallest_p: 1.0 } }
+        Self {
+            level,
+            expected: statistical_tests,
+            passed: Passed { tests: 0, statistical: 0, smallest_p: 1.0 },
+        }
     }
 
     /// A test that has no chance in it.

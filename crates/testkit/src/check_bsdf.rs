@@ -48,8 +48,10 @@ pub fn check_bsdf(bsdf: &dyn Bsdf, budget: &Budget) -> Outcome {
         let sin = (1.0 - f64::from(cos) * f64::from(cos)).sqrt();
         let wo = Vec3A::new((sin * phi.cos()) as f32, (sin * phi.sin()) as f32, cos);
         for mode in MODES {
-            density(bsdf, wo, mode, budget, &mut random, &mut judge)
-                .map_err(|f| Failure { what: format!("{}; wo = {wo} (direction {i}), {mode:?}", f.what), ..f })?;
+            density(bsdf, wo, mode, budget, &mut random, &mut judge).map_err(|f| Failure {
+                what: format!("{}; wo = {wo} (direction {i}), {mode:?}", f.what),
+                ..f
+            })?;
         }
     }
     judge.done()
@@ -81,9 +83,9 @@ fn sound(bsdf: &dyn Bsdf, wo: Vec3A, s: &BsdfSample, judge: &mut Judge) -> Resul
 /// Extreme random numbers, grazing directions, and directions that are none.
 fn extremes(bsdf: &dyn Bsdf, judge: &mut Judge) -> Result<(), Failure> {
     let draws = || {
-        EXTREMES.iter().flat_map(|&l| {
-            EXTREMES.iter().flat_map(move |&x| EXTREMES.map(|y| (l, Vec2::new(x, y))))
-        })
+        EXTREMES
+            .iter()
+            .flat_map(|&l| EXTREMES.iter().flat_map(move |&x| EXTREMES.map(|y| (l, Vec2::new(x, y)))))
     };
     let finite = |wo: Vec3A, wi: Vec3A, mode| {
         let (e, p) = (bsdf.eval(wo, wi, mode), bsdf.pdf(wo, wi, mode));
@@ -106,7 +108,14 @@ fn extremes(bsdf: &dyn Bsdf, judge: &mut Judge) -> Result<(), Failure> {
         judge.require(ok, "albedo", || format!("{a:?} for wo = {wo}"))?;
     }
     let (nan, inf) = (f32::NAN, f32::INFINITY);
-    let odd = [Vec3A::ZERO, Vec3A::splat(nan), Vec3A::Z * inf, Vec3A::new(1.0, nan, 0.5), Vec3A::splat(1e30), Vec3A::X];
+    let odd = [
+        Vec3A::ZERO,
+        Vec3A::splat(nan),
+        Vec3A::Z * inf,
+        Vec3A::new(1.0, nan, 0.5),
+        Vec3A::splat(1e30),
+        Vec3A::X,
+    ];
     for (i, &wo) in odd.iter().enumerate() {
         let wi = odd[(i * 5 + 2) % odd.len()];
         for mode in MODES {
@@ -125,7 +134,10 @@ fn extremes(bsdf: &dyn Bsdf, judge: &mut Judge) -> Result<(), Failure> {
 /// Exchanging the directions, and the calls that must say the same.
 fn exchange(bsdf: &dyn Bsdf, budget: &Budget, random: &mut Random, judge: &mut Judge) -> Result<(), Failure> {
     let spread = bsdf.lobes().intersects(Lobes::DIFFUSE | Lobes::GLOSSY);
-    for _ in 0..budget.samples(PAIRS) {
+    let reciprocal = bsdf.lobes().contains(Lobes::RECIPROCAL);
+    let pairs = budget.samples(PAIRS);
+    let (mut one_way, mut lopsided) = (Odd::default(), Odd::default());
+    for _ in 0..pairs {
         let wo = random.direction();
         let (u_lobe, u) = (random.unit(), random.pair());
         // Half the pairs where the BSDF is large, half anywhere.
@@ -140,27 +152,59 @@ fn exchange(bsdf: &dyn Bsdf, budget: &Budget, random: &mut Random, judge: &mut J
         // At grazing angles the quotient by the cosine is all rounding.
         if spread && wo.z.abs() > 1e-2 && wi.z.abs() > 1e-2 {
             let back = bsdf.eval(wi, wo, Mode::Radiance) / wo.z.abs();
-            let there = |o: Vec3A, i: Vec3A| bsdf.eval(o, i, Mode::Importance) / i.z.abs();
-            judge.require(agree(back, wo, wi, 2e-3, &there), "adjoint", || {
-                format!("f*({wo}, {wi}) = {:?} in importance mode, f(wi, wo) = {back:?} in radiance mode", there(wo, wi))
-            })?;
-            if bsdf.lobes().contains(Lobes::RECIPROCAL) && wo.z * wi.z > 0.0 {
-                let there = |o: Vec3A, i: Vec3A| bsdf.eval(o, i, Mode::Radiance) / i.z.abs();
-                judge.require(agree(back, wo, wi, 2e-3, &there), "reciprocity", || {
-                    format!("f({wo}, {wi}) = {:?}, exchanged {back:?}", there(wo, wi))
-                })?;
+            let importance = |o: Vec3A, i: Vec3A| bsdf.eval(o, i, Mode::Importance) / i.z.abs();
+            one_way.note(back, wo, wi, &importance);
+            if reciprocal && wo.z * wi.z > 0.0 {
+                lopsided.note(back, wo, wi, &|o, i| bsdf.eval(o, i, Mode::Radiance) / i.z.abs());
             }
         }
         for mode in MODES {
             same_calls(bsdf, wo, wi, u_lobe, u, mode, judge)?;
         }
     }
-    Ok(())
+    one_way.judge(
+        pairs,
+        "adjoint",
+        "f(wo, wi) in importance mode is not f(wi, wo) in radiance mode",
+        judge,
+    )?;
+    lopsided.judge(pairs, "reciprocity", "f(wo, wi) is not f(wi, wo)", judge)
+}
+
+/// Pairs of directions that disagree when exchanged.
+#[derive(Default)]
+struct Odd {
+    count: usize,
+    first: String,
+}
+
+impl Odd {
+    fn note(&mut self, back: Spectrum, wo: Vec3A, wi: Vec3A, there: &dyn Fn(Vec3A, Vec3A) -> Spectrum) {
+        if !agree(back, wo, wi, 2e-3, there) {
+            if self.count == 0 {
+                self.first = format!("wo = {wo}, wi = {wi}: {:?} and {back:?}", there(wo, wi));
+            }
+            self.count += 1;
+        }
+    }
+
+    /// One pair in 200 may: where nearly all light is reflected, the little that is not is a rounded difference.
+    fn judge(&self, pairs: usize, test: &'static str, what: &str, judge: &mut Judge) -> Result<(), Failure> {
+        judge.require(self.count <= 1 + pairs / 200, test, || {
+            format!("{what} for {} of {pairs} pairs; {}", self.count, self.first)
+        })
+    }
 }
 
 /// A delta lobe carries the same both ways, in étendue: what importance takes along, times eta², is what radiance
 /// takes back.
-fn delta_exchange(bsdf: &dyn Bsdf, wo: Vec3A, s: &BsdfSample, random: &mut Random, judge: &mut Judge) -> Result<(), Failure> {
+fn delta_exchange(
+    bsdf: &dyn Bsdf,
+    wo: Vec3A,
+    s: &BsdfSample,
+    random: &mut Random,
+    judge: &mut Judge,
+) -> Result<(), Failure> {
     let (e, p) = (bsdf.eval(wo, s.wi, Mode::Importance), bsdf.pdf(wo, s.wi, Mode::Importance));
     let only_delta = !bsdf.lobes().intersects(Lobes::DIFFUSE | Lobes::GLOSSY);
     judge.require(!only_delta || (e.is_black() && p == 0.0), "delta", || {
@@ -182,9 +226,13 @@ fn delta_exchange(bsdf: &dyn Bsdf, wo: Vec3A, s: &BsdfSample, random: &mut Rando
     let here = back.weight * back.pdf;
     let off = (there - here).map(f32::abs).max_channel();
     judge.require(off <= 5e-3 * here.max_channel() + 1e-6, "adjoint", || {
-        format!("a delta lobe from {wo} takes {there:?} of importance times eta², and {here:?} of radiance back")
+        format!(
+            "a delta lobe from {wo} takes {there:?} of importance times eta², and {here:?} of radiance back"
+        )
     })?;
-    judge.require((s.eta * back.eta - 1.0).abs() < 1e-5, "eta", || format!("{} there, {} back", s.eta, back.eta))
+    judge.require((s.eta * back.eta - 1.0).abs() < 1e-5, "eta", || {
+        format!("{} there, {} back", s.eta, back.eta)
+    })
 }
 
 /// The fused and split calls.
@@ -277,7 +325,9 @@ fn density(
         let most = weights.into_iter().max_by(|a, b| a.mean().total_cmp(&b.mean())).unwrap_or_default();
         let excess = (most.mean() - 1.0).max(0.0);
         let p = p_of_z_beyond(excess, 1e-4, most.standard_error());
-        judge.p_value(p, "energy", || format!("the mean weight is {} ± {}", most.mean(), most.standard_error()))?;
+        judge.p_value(p, "energy", || {
+            format!("the mean weight is {} ± {}", most.mean(), most.standard_error())
+        })?;
     }
     Ok(())
 }
@@ -285,7 +335,9 @@ fn density(
 /// Whether directions fit their density and its mass: three statistical tests.
 pub(crate) fn fits(partition: &Partition, drawn: usize, n: usize, judge: &mut Judge) -> Result<(), Failure> {
     let mass = partition.mass();
-    judge.require(mass.value - mass.error <= 1.0 + 2e-3, "mass", || format!("the density integrates to {mass:?}"))?;
+    judge.require(mass.value - mass.error <= 1.0 + 2e-3, "mass", || {
+        format!("the density integrates to {mass:?}")
+    })?;
     for (chi2, cells) in [(partition.fine(), "fine"), (partition.coarse(), "coarse")] {
         // A few samples may be rounded across the border of the support.
         judge.require(chi2.impossible as f64 <= 1e-4 * n as f64 + 1.0, "support", || {

@@ -64,7 +64,9 @@ fn one_ray(
         && s.spread >= 0.0;
     judge.require(ok, "ray", || format!("{s:?} at {draw:?}"))?;
     judge.require(s.ray.time == time, "time", || format!("asked for {time}, the ray says {}", s.ray.time))?;
-    judge.require(camera.ray(film, lens, time) == Some(*s), "pure", || format!("another ray at {draw:?} when asked twice"))?;
+    judge.require(camera.ray(film, lens, time) == Some(*s), "pure", || {
+        format!("another ray at {draw:?} when asked twice")
+    })?;
     if !needs.contains(Needs::LENS) {
         let other = camera.ray(film, random.pair(), time);
         judge.require(other == Some(*s), "lens", || "it matters, but Needs::LENS is not declared".into())?;
@@ -90,7 +92,10 @@ fn one_ray(
         let toward = vector::length(back.wi + s.ray.d);
         let ok = off < 1e-2 && toward < 1e-3 && back.pdf > 0.0 && back.we.is_finite();
         judge.require(ok, "connect", || {
-            format!("film {film} came back as {} ({off} pixels off), direction {} as {}", back.film, -s.ray.d, back.wi)
+            format!(
+                "film {film} came back as {} ({off} pixels off), direction {} as {}",
+                back.film, -s.ray.d, back.wi
+            )
         })?;
     }
     Ok(())

@@ -98,7 +98,8 @@ pub fn check_integrator<S: Sampler>(
         let paths = self::paths(camera, s, u64::from(s.spp()));
         let mut out = vec![Sample::default(); paths.len()];
         integrator.li_batch(&cx, &paths, &mut out);
-        out.iter().zip(&paths).map(|(o, (s, _))| f64::from(o.l.mean() * s.weight)).sum::<f64>() / paths.len() as f64
+        out.iter().zip(&paths).map(|(o, (s, _))| f64::from(o.l.mean() * s.weight)).sum::<f64>()
+            / paths.len() as f64
     };
     let own = |seed| mean(integrator, seed);
     match truth {

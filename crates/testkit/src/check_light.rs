@@ -36,7 +36,13 @@ pub type Seen<'a> = dyn Fn(&Ray) -> Option<Surface> + 'a;
 ///
 /// # Errors
 /// The first [`Failure`].
-pub fn check_light(light: &dyn Light, part: u32, points: &[LitPoint], seen: &Seen<'_>, budget: &Budget) -> Outcome {
+pub fn check_light(
+    light: &dyn Light,
+    part: u32,
+    points: &[LitPoint],
+    seen: &Seen<'_>,
+    budget: &Budget,
+) -> Outcome {
     let mut judge = Judge::new(budget, points.len() * TESTS + 1);
     judge.require(part < light.parts(), "parts", || format!("part {part} of {}", light.parts()))?;
     let mut random = budget.random(0x116e);
@@ -48,7 +54,9 @@ pub fn check_light(light: &dyn Light, part: u32, points: &[LitPoint], seen: &See
     }
     let power = light.power(part, 1.0);
     let sound = power.is_finite() && power.to_array().iter().all(|&p| p >= 0.0);
-    judge.require(sound && (!found || !power.is_black()), "power", || format!("{power:?}, light found: {found}"))?;
+    judge.require(sound && (!found || !power.is_black()), "power", || {
+        format!("{power:?}, light found: {found}")
+    })?;
     whole_power(&probe, power, budget, &mut random, &mut judge)?;
     judge.done()
 }
@@ -101,7 +109,9 @@ impl Probe<'_> {
         judge.require(ok, "sample", || format!("{s:?}"))?;
         judge.require(usable(at, s.wi), "side", || format!("{s:?} is behind the surface"))?;
         let delta = s.is_delta == self.light.is_delta() && (!s.is_delta || s.pdf == 1.0);
-        judge.require(delta, "delta", || format!("{s:?} of a light whose is_delta is {}", self.light.is_delta()))?;
+        judge.require(delta, "delta", || {
+            format!("{s:?} of a light whose is_delta is {}", self.light.is_delta())
+        })?;
         judge.require(s.end.is_none() == self.light.is_infinite(), "end", || {
             format!("{:?} of a light whose is_infinite is {}", s.end, self.light.is_infinite())
         })?;
@@ -116,7 +126,8 @@ impl Probe<'_> {
         let inside = end.p.cmpge(b.bounds.lo - slack).all() && end.p.cmple(b.bounds.hi + slack).all();
         judge.require(inside, "bounds", || format!("{} outside of {:?}", end.p, b.bounds))?;
         let leaves = f64::from(b.axis.dot(-s.wi)).clamp(-1.0, 1.0).acos();
-        let cone = f64::from(b.cos_normals).clamp(-1.0, 1.0).acos() + f64::from(b.cos_emission).clamp(-1.0, 1.0).acos();
+        let cone = f64::from(b.cos_normals).clamp(-1.0, 1.0).acos()
+            + f64::from(b.cos_emission).clamp(-1.0, 1.0).acos();
         judge.require(s.li.is_black() || leaves <= cone + 1e-3, "bounds", || {
             format!("light leaves {leaves} rad from the axis, the cone has {cone}")
         })
@@ -154,8 +165,9 @@ fn from_point(
         }
     }
     let n = budget.samples(SAMPLES);
-    let scouts: Vec<Vec3A> =
-        (0..n / 4).filter_map(|_| light.sample(at, part, random.pair()).filter(|s| !s.is_delta).map(|s| s.wi)).collect();
+    let scouts: Vec<Vec3A> = (0..n / 4)
+        .filter_map(|_| light.sample(at, part, random.pair()).filter(|s| !s.is_delta).map(|s| s.wi))
+        .collect();
     let mut directions = Vec::with_capacity(n);
     let mut sampled = Moments::default();
     let (mut any, mut disagree, mut own_shadow) = (false, 0, 0);

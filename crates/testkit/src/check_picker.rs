@@ -33,7 +33,9 @@ pub fn check_picker(
     for at in points {
         let pmf: Vec<f64> = ids.iter().map(|&id| f64::from(picker.pmf(at, id))).collect();
         let total: f64 = pmf.iter().sum();
-        judge.require(pmf.iter().all(|p| (0.0..=1.0 + 1e-6).contains(p)), "probability", || format!("{pmf:?}"))?;
+        judge.require(pmf.iter().all(|p| (0.0..=1.0 + 1e-6).contains(p)), "probability", || {
+            format!("{pmf:?}")
+        })?;
         judge.require((total - 1.0).abs() < 1e-4 || total == 0.0, "total", || {
             format!("probabilities add up to {total}")
         })?;

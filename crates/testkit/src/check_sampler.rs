@@ -75,7 +75,9 @@ fn index_of(i: usize, spp: u32) -> u64 {
 
 fn pure<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, judge: &mut Judge) -> Result<(), Failure> {
     let s = make(seed);
-    judge.require(s.spp() > 0 && s.replicates() > 0, "size", || format!("{} spp, {} replicates", s.spp(), s.replicates()))?;
+    judge.require(s.spp() > 0 && s.replicates() > 0, "size", || {
+        format!("{} spp, {} replicates", s.spp(), s.replicates())
+    })?;
     for i in 0..256u64 {
         let (stream, index) = (i.wrapping_mul(0x1234_5678_9abc_def1), i * i);
         let u = s.start(stream, index);
@@ -97,7 +99,9 @@ fn pure<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, judge: &mut Judge) -> Re
             let p = u.get_2d(dim);
             judge.require(p == again.get_2d(dim), "pure", || format!("{p} in {dim:?}"))?;
             judge.require(on_grid(p.x) && on_grid(p.y), "range", || {
-                format!("{p} in {dim:?} is not of multiples of 2^-24 in [0, 1): finer numbers round to 1 some day")
+                format!(
+                    "{p} in {dim:?} is not of multiples of 2^-24 in [0, 1): finer numbers round to 1 some day"
+                )
             })?;
         }
         for depth in [0, 1, 2, 30] {
@@ -121,7 +125,9 @@ fn pure<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, judge: &mut Judge) -> Re
         f
     };
     let opaque = print(seed).is_opaque();
-    judge.require(opaque || print(seed) != print(seed ^ 1), "fingerprint", || "it does not hold the seed".into())
+    judge.require(opaque || print(seed) != print(seed ^ 1), "fingerprint", || {
+        "it does not hold the seed".into()
+    })
 }
 
 /// Whether a number lies in `[0, 1)` and is a multiple of 2⁻²⁴.
@@ -212,7 +218,12 @@ fn smooth(p: Vec2) -> f64 {
 /// Variance of `smooth` at one uniform point: ∫ e^(2xy) / I² − 1 with ∫ e^(2xy) = Σ 2ⁿ / (n! (n+1)²).
 const SMOOTH_VARIANCE: f64 = 0.060_493_826;
 
-fn unbiased<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, budget: &Budget, judge: &mut Judge) -> Result<(), Failure> {
+fn unbiased<S: Sampler>(
+    make: &dyn Fn(u64) -> S,
+    seed: u64,
+    budget: &Budget,
+    judge: &mut Judge,
+) -> Result<(), Failure> {
     let spp = make(seed).spp().min(256);
     let trials = budget.samples(1000);
     for dim in PAIRS {
@@ -220,18 +231,22 @@ fn unbiased<S: Sampler>(make: &dyn Fn(u64) -> S, seed: u64, budget: &Budget, jud
         let mut m = Moments::default();
         for trial in 0..trials as u64 {
             let s = make(seed.wrapping_add(trial << 20));
-            let sum: f64 =
-                (0..u64::from(spp)).map(|i| smooth(s.start(trial % 7, i).get_2d(dim))).sum();
+            let sum: f64 = (0..u64::from(spp)).map(|i| smooth(s.start(trial % 7, i).get_2d(dim))).sum();
             estimates.push(sum / f64::from(spp));
             m.add((sum / f64::from(spp) - 1.0).powi(2));
         }
         let test = mean_test(&estimates, 1.0);
-        judge.p_value(test.p, "bias", || format!("{spp} samples of {dim:?} give {} instead of 1", test.estimate))?;
+        judge.p_value(test.p, "bias", || {
+            format!("{spp} samples of {dim:?} give {} instead of 1", test.estimate)
+        })?;
         // The mean square error, against that of independent numbers.
         let iid = SMOOTH_VARIANCE / f64::from(spp);
         let excess = (m.mean() - iid).max(0.0);
         judge.p_value(p_of_z_beyond(excess, 0.0, m.standard_error()), "error", || {
-            format!("{spp} samples of {dim:?}: mean square error {:.2e}, independent numbers have {iid:.2e}", m.mean())
+            format!(
+                "{spp} samples of {dim:?}: mean square error {:.2e}, independent numbers have {iid:.2e}",
+                m.mean()
+            )
         })?;
     }
     Ok(())
@@ -254,6 +269,10 @@ mod tests {
             power *= 2.0;
         }
         assert!((smooth(Vec2::ZERO) * mean - 1.0).abs() < 1e-12);
-        assert!((square / (mean * mean) - 1.0 - SMOOTH_VARIANCE).abs() < 1e-7, "{}", square / (mean * mean) - 1.0);
+        assert!(
+            (square / (mean * mean) - 1.0 - SMOOTH_VARIANCE).abs() < 1e-7,
+            "{}",
+            square / (mean * mean) - 1.0
+        );
     }
 }

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use etendue_bsdf::{BsdfAt, Conductor, Lambert, Masking, MetalFresnel, Mirror, RoughDielectric, SmoothDielectric};
+use etendue_bsdf::{
+    BsdfAt, Conductor, Lambert, Masking, MetalFresnel, Mirror, RoughDielectric, SmoothDielectric,
+};
 use etendue_core::{Frame, Ray, Spectrum, Transform, Vec3, Vec3A};
 use etendue_geometry::{Geometry, Parallelogram, Sphere, TriangleMesh, presets};
 use etendue_light::{ConstantEnvironment, PointLight};
@@ -58,7 +60,8 @@ pub fn frame() -> impl Strategy<Value = Frame> {
 
 /// Placements: rotation, scale of either sign from 1/16 to 16 per axis, translation.
 pub fn transform() -> impl Strategy<Value = Transform> {
-    let scale = (-4.0f32..4.0, any::<bool>()).prop_map(|(e, flip)| 2f32.powi(e as i32) * if flip { -1.0 } else { 1.0 });
+    let scale = (-4.0f32..4.0, any::<bool>())
+        .prop_map(|(e, flip)| 2f32.powi(e as i32) * if flip { -1.0 } else { 1.0 });
     (direction(), -3.2f32..3.2, [scale.clone(), scale.clone(), scale], point(10.0)).prop_map(
         |(axis, angle, s, t)| {
             Transform::scale(Vec3A::from(s))
@@ -127,8 +130,9 @@ pub fn bsdf() -> impl Strategy<Value = BsdfAt<'static>> {
         albedo().prop_map(|a| BsdfAt::Lambert(Lambert::new(a))),
         albedo().prop_map(|a| BsdfAt::Mirror(Mirror::new(a))),
         (1.01f32..2.5).prop_map(|eta| BsdfAt::SmoothDielectric(SmoothDielectric::new(eta))),
-        (albedo(), roughness(), masking())
-            .prop_map(|(f0, r, m)| BsdfAt::Conductor(Conductor::new(r, MetalFresnel::Schlick { f0 }).with_masking(m))),
+        (albedo(), roughness(), masking()).prop_map(|(f0, r, m)| BsdfAt::Conductor(
+            Conductor::new(r, MetalFresnel::Schlick { f0 }).with_masking(m)
+        )),
         (1.01f32..2.5, roughness(), masking())
             .prop_map(|(eta, r, m)| BsdfAt::RoughDielectric(RoughDielectric::new(r, eta).with_masking(m))),
     ]

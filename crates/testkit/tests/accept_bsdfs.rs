@@ -3,7 +3,8 @@
 mod support;
 
 use etendue_bsdf::{
-    Black, Bsdf, BsdfAt, Conductor, Ggx, Lambert, Masking, MetalFresnel, Mirror, RoughDielectric, SmoothDielectric,
+    Black, Bsdf, BsdfAt, Conductor, Ggx, Lambert, Masking, MetalFresnel, Mirror, RoughDielectric,
+    SmoothDielectric,
 };
 use etendue_core::Spectrum;
 use etendue_testkit::check_bsdf;
@@ -11,7 +12,8 @@ use support::{Case, FEW, MANY, accept};
 
 fn cases() -> Vec<Case<'static>> {
     let mut out = Vec::new();
-    let mut add = |name: String, bsdf: Box<dyn Bsdf>| out.push(Case::new(name, move |b| check_bsdf(&*bsdf, b)));
+    let mut add =
+        |name: String, bsdf: Box<dyn Bsdf>| out.push(Case::new(name, move |b| check_bsdf(&*bsdf, b)));
     let color = Spectrum::rgb(0.2, 0.5, 0.95);
     add("black".into(), Box::new(Black));
     add("lambert".into(), Box::new(Lambert::new(color)));

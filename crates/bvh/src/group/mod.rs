@@ -139,7 +139,8 @@ impl Group {
                     let report = mesh.report();
                     cx.report.dropped_degenerate += report.degenerate;
                     cx.report.dropped_non_finite += report.non_finite;
-                    let clean = report.degenerate + report.non_finite == 0;
+                    cx.report.dropped_duplicates += report.duplicate;
+                    let clean = report.degenerate + report.non_finite + report.duplicate == 0;
                     for prim in 0..mesh.triangle_count() as u32 {
                         if !clean && mesh.is_degenerate(prim) {
                             continue;

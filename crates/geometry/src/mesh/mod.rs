@@ -28,6 +28,8 @@ pub struct TriangleMesh {
     colors: Vec<Vec4>,
     bounds: Aabb,
     report: MeshReport,
+    /// Ascending.
+    duplicates: Vec<u32>,
 }
 
 impl TriangleMesh {
@@ -63,6 +65,7 @@ impl TriangleMesh {
             colors: Vec::new(),
             bounds: Aabb::EMPTY,
             report: MeshReport::default(),
+            duplicates: Vec::new(),
         }
     }
 

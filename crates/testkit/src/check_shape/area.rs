@@ -45,7 +45,11 @@ impl Places {
         let at = |i: usize| {
             let x = (p[i] - self.bounds.lo[i]) / extent[i];
             // A flat side is not divided: its coordinates are all rounding.
-            if x > 0.0 && extent[i] > 1e-4 * self.bounds.radius() { ((x * SIDE as f32) as usize).min(SIDE - 1) } else { 0 }
+            if x > 0.0 && extent[i] > 1e-4 * self.bounds.radius() {
+                ((x * SIDE as f32) as usize).min(SIDE - 1)
+            } else {
+                0
+            }
         };
         (at(0) * SIDE + at(1)) * SIDE + at(2)
     }

@@ -34,7 +34,13 @@ pub(super) fn follow(
 }
 
 /// The interval of the ray, and the meaning of `t`.
-fn interval(shape: &dyn Shape, ray: &Ray, hit: &ShapeHit, radius: f32, judge: &mut Judge) -> Result<(), Failure> {
+fn interval(
+    shape: &dyn Shape,
+    ray: &Ray,
+    hit: &ShapeHit,
+    radius: f32,
+    judge: &mut Judge,
+) -> Result<(), Failure> {
     judge.require(ray.accepts(hit.t), "interval", || format!("t = {} on {ray:?}", hit.t))?;
     // The same ray with a longer direction: t is measured in its lengths.
     let double = Ray { d: ray.d * 2.0, t_min: ray.t_min * 0.5, t_max: ray.t_max * 0.5, ..*ray };
@@ -47,14 +53,22 @@ fn interval(shape: &dyn Shape, ray: &Ray, hit: &ShapeHit, radius: f32, judge: &m
     let before = Ray { t_max: hit.t, ..*ray };
     let behind = Ray { t_min: hit.t, ..*ray };
     let (b, a) = (shape.intersect(&before), shape.intersect(&behind));
-    judge.require(b.is_none_or(|h| before.accepts(h.t)) && a.is_none_or(|h| behind.accepts(h.t)), "interval", || {
-        format!("t_max = {}: {b:?}; t_min the same: {a:?}", hit.t)
-    })?;
+    judge.require(
+        b.is_none_or(|h| before.accepts(h.t)) && a.is_none_or(|h| behind.accepts(h.t)),
+        "interval",
+        || format!("t_max = {}: {b:?}; t_min the same: {a:?}", hit.t),
+    )?;
     judge.require(b.is_none(), "nearest", || format!("t = {} on {ray:?}, but {b:?} is nearer", hit.t))
 }
 
 /// Place, error bound and frame of the surface point.
-fn point(shape: &dyn Shape, ray: &Ray, hit: &ShapeHit, s: &Surface, judge: &mut Judge) -> Result<(), Failure> {
+fn point(
+    shape: &dyn Shape,
+    ray: &Ray,
+    hit: &ShapeHit,
+    s: &Surface,
+    judge: &mut Judge,
+) -> Result<(), Failure> {
     let far = hit.t.abs() * vector::length(ray.d);
     let slack = s.p_err + (ray.o.abs() + s.p.abs() + Vec3A::splat(far)) * 1e-5;
     let on_ray = (ray.at(hit.t) - s.p).abs().cmple(slack).all();
@@ -81,7 +95,8 @@ fn respawn(shape: &dyn Shape, ray: &Ray, s: &Surface, radius: f32, judge: &mut J
     for d in [ray.d, -ray.d, s.shading.x, s.shading.to_world(Vec3A::new(0.6, 0.0, 0.8))] {
         let spawned = s.origin().ray(d, 0.0);
         let again = shape.intersect(&spawned);
-        let same = again.filter(|h| h.t <= near).is_some_and(|h| shape.surface(&spawned, &h).ng.dot(s.ng) > 0.9);
+        let same =
+            again.filter(|h| h.t <= near).is_some_and(|h| shape.surface(&spawned, &h).ng.dot(s.ng) > 0.9);
         judge.require(!same, "self-hit", || format!("at {} along {d}: {again:?}, bound {}", s.p, s.p_err))?;
     }
     Ok(())
@@ -111,7 +126,9 @@ impl Around {
         let frame = etendue_core::Frame::from_normal(ray.d);
         for aside in [frame.x, frame.y] {
             let beside = Ray { o: ray.o + aside * (1e-3 * radius), ..*ray };
-            let Some(h) = shape.intersect(&beside).filter(|h| (h.t - hit.t).abs() < 1e-2 * radius) else { continue };
+            let Some(h) = shape.intersect(&beside).filter(|h| (h.t - hit.t).abs() < 1e-2 * radius) else {
+                continue;
+            };
             let other = shape.surface(&beside, &h);
             let along = other.p - s.p;
             let length = vector::length(along);
@@ -128,7 +145,8 @@ impl Around {
                 let predicted = s.dpdu * du.x + s.dpdv * du.y;
                 if vector::length(predicted - along) > 0.2 * length {
                     self.derivatives.wrong += 1;
-                    self.worst = format!("dpdu {} and dpdv {} give {predicted} for a step {along}", s.dpdu, s.dpdv);
+                    self.worst =
+                        format!("dpdu {} and dpdv {} give {predicted} for a step {along}", s.dpdu, s.dpdv);
                 }
             }
         }
@@ -141,7 +159,10 @@ impl Around {
             format!("wrong at {} of {} places; {}", self.normals.wrong, self.normals.asked, self.worst)
         })?;
         judge.require(few(&self.derivatives), "derivatives", || {
-            format!("wrong at {} of {} places; {}", self.derivatives.wrong, self.derivatives.asked, self.worst)
+            format!(
+                "wrong at {} of {} places; {}",
+                self.derivatives.wrong, self.derivatives.asked, self.worst
+            )
         })
     }
 }

@@ -36,14 +36,23 @@ pub fn check_shape(shape: &dyn Shape, budget: &Budget) -> Outcome {
     judge.require(!bounds.is_empty(), "bounds", || format!("{bounds:?} is empty"))?;
     let (center, radius) =
         if bounds.is_finite() { (bounds.center(), bounds.radius()) } else { (Vec3A::ZERO, 1.0) };
-    judge.require(radius > 0.0 && radius.is_finite(), "bounds", || format!("{bounds:?} has radius {radius}"))?;
+    judge.require(radius > 0.0 && radius.is_finite(), "bounds", || {
+        format!("{bounds:?} has radius {radius}")
+    })?;
     invalid_rays(shape, center, radius, &mut judge)?;
     let lines = budget.samples(LINES);
     let mut places = Places::new(&bounds);
     let mut around = hits::Around::default();
     for _ in 0..lines {
         let mut crossings = Vec::new();
-        follow(shape, &through(center, radius, &mut random), radius, &mut around, &mut crossings, &mut judge)?;
+        follow(
+            shape,
+            &through(center, radius, &mut random),
+            radius,
+            &mut around,
+            &mut crossings,
+            &mut judge,
+        )?;
         places.add_line(&crossings);
     }
     around.judge(&mut judge)?;
