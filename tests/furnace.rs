@@ -128,8 +128,8 @@ fn rough_materials_agree_over_all_ways_of_finding_light() {
         {
             let test = etendue_testkit::stats::welch_test(&of(direct), &reference);
             assert!(!test.rejects(1e-6), "{name}, {direct:?}: {test:?}");
-            // Light sampling alone is noisy on glossy lobes: it sees 4 %, the others 2 %.
-            let power = if direct == DirectLight::Light { 0.04 } else { 0.02 };
+            // Light sampling alone is noisy on glossy lobes: it sees 12 %, the others 2 %.
+            let power = if direct == DirectLight::Light { 0.12 } else { 0.02 };
             assert!(5.0 * test.standard_error < power * test.truth.max(0.6), "{name}, {direct:?}: {test:?}");
         }
         // Nothing is made: a single-scattering model loses a little and never gains.

@@ -59,17 +59,10 @@ impl Film {
         if size.x == 0 || size.y == 0 || replicates == 0 {
             return Err(FilmError::Empty(size.x, size.y, replicates));
         }
-        let too_large = || FilmError::TooLarge(size.x, size.y, replicates);
-        let cells = (size.x as usize)
-            .checked_mul(size.y as usize)
-            .and_then(|n| n.checked_mul(replicates as usize))
-            .ok_or_else(too_large)?;
-        // Asks before it takes: an absurd size is an error, not an abort.
-        let mut probe: Vec<[i128; 8]> = Vec::new();
-        probe.try_reserve_exact(cells).map_err(|_| too_large())?;
-        drop(probe);
         let rect = TileRect { lo: UVec2::ZERO, hi: size };
-        Ok(Self { size, planes, all: Tile::new(rect, replicates, planes) })
+        let all = Tile::try_new(rect, replicates, planes)
+            .map_err(|_| FilmError::TooLarge(size.x, size.y, replicates))?;
+        Ok(Self { size, planes, all })
     }
 
     /// Width and height in pixels.
@@ -90,6 +83,13 @@ impl Film {
     /// Adds one sample to a pixel; false where it was refused (see [`Tile::add`]) or the pixel does not exist.
     pub fn add(&mut self, pixel: UVec2, replicate: u32, l: Spectrum) -> bool {
         pixel.x < self.size.x && pixel.y < self.size.y && self.all.add(pixel, replicate, l)
+    }
+
+    /// Adds the alpha of one sample, if the plane is kept.
+    pub fn add_alpha(&mut self, pixel: UVec2, alpha: f32) {
+        if pixel.x < self.size.x && pixel.y < self.size.y {
+            self.all.add_alpha(pixel, alpha);
+        }
     }
 
     /// Adds what the auxiliary planes want of one sample.
@@ -231,14 +231,10 @@ impl Film {
         Some(if hits == 0 { f32::INFINITY } else { fixed::mean(*s, hits) as f32 })
     }
 
-    /// Fraction of samples that hit a surface; `None` if the plane is not kept.
+    /// Mean alpha of the samples: the fraction that hit a surface; `None` if the plane is not kept.
     pub fn alpha(&self, pixel: UVec2) -> Option<f32> {
-        if !self.planes.alpha {
-            return None;
-        }
-        let hits = *self.plane().hits.get(self.index(pixel))?;
-        let n = self.samples(pixel);
-        Some(if n == 0 { 0.0 } else { (hits as f64 / n as f64) as f32 })
+        let sum = *self.plane().alpha.get(self.index(pixel))?;
+        Some(fixed::mean(sum, self.samples(pixel)) as f32)
     }
 
     /// The surface that the pixel's first sample met; `None` if not kept or none was met.
@@ -251,6 +247,7 @@ impl Film {
         let mut f = Fingerprint::default();
         f.u64(u64::from(self.size.x) << 32 | u64::from(self.size.y));
         f.u64(u64::from(self.replicates()));
+        f.tag(&format!("{:?}", self.planes));
         for (s, n) in self.all.sums.iter().zip(&self.all.counts) {
             for c in s {
                 f.bytes(&c.to_le_bytes());
@@ -258,7 +255,7 @@ impl Film {
             f.u64(*n);
         }
         let p = self.plane();
-        for c in p.albedo.iter().chain(&p.normal).flatten().chain(&p.depth) {
+        for c in p.albedo.iter().chain(&p.normal).flatten().chain(&p.depth).chain(&p.alpha) {
             f.bytes(&c.to_le_bytes());
         }
         for hits in &p.hits {
@@ -284,6 +281,7 @@ impl Film {
             + size_of_val(t.planes.normal.as_slice())
             + size_of_val(t.planes.depth.as_slice())
             + size_of_val(t.planes.hits.as_slice())
+            + size_of_val(t.planes.alpha.as_slice())
             + size_of_val(t.planes.ids.as_slice())
     }
 }

@@ -1,3 +1,5 @@
+use std::collections::TryReserveError;
+
 use etendue_core::{Spectrum, Vec3A};
 
 /// Which auxiliary planes (AOVs) a film keeps beside radiance. None by default: what is not asked for is neither
@@ -12,7 +14,7 @@ pub struct Planes {
     pub depth: bool,
     /// Instance, geometry and triangle of the first surface, taken from the pixel's lowest sample index.
     pub ids: bool,
-    /// Fraction of samples that hit a surface.
+    /// Mean of the samples' alpha: the fraction that hit a surface.
     pub alpha: bool,
 }
 
@@ -56,21 +58,29 @@ pub(crate) struct PlaneSums {
     pub(crate) albedo: Vec<[i128; 3]>,
     pub(crate) normal: Vec<[i128; 3]>,
     pub(crate) depth: Vec<i128>,
-    /// Samples that hit a surface; kept when depth or alpha is.
+    /// Samples that hit a surface, beside their depths.
     pub(crate) hits: Vec<u64>,
+    pub(crate) alpha: Vec<i128>,
     /// The lowest sample index seen so far and its ids.
     pub(crate) ids: Vec<Option<(u64, Ids)>>,
 }
 
 impl PlaneSums {
-    pub(crate) fn new(planes: Planes, pixels: usize) -> Self {
+    pub(crate) fn try_new(planes: Planes, pixels: usize) -> Result<Self, TryReserveError> {
         let n = |wanted: bool| if wanted { pixels } else { 0 };
-        Self {
-            albedo: vec![[0; 3]; n(planes.albedo)],
-            normal: vec![[0; 3]; n(planes.normal)],
-            depth: vec![0; n(planes.depth)],
-            hits: vec![0; n(planes.depth || planes.alpha)],
-            ids: vec![None; n(planes.ids)],
+        Ok(Self {
+            albedo: filled([0; 3], n(planes.albedo))?,
+            normal: filled([0; 3], n(planes.normal))?,
+            depth: filled(0, n(planes.depth))?,
+            hits: filled(0, n(planes.depth))?,
+            alpha: filled(0, n(planes.alpha))?,
+            ids: filled(None, n(planes.ids))?,
+        })
+    }
+
+    pub(crate) fn add_alpha(&mut self, pixel: usize, alpha: f32) {
+        if let Some(a) = self.alpha.get_mut(pixel) {
+            *a = a.wrapping_add(crate::fixed::to_fixed(alpha).unwrap_or(0));
         }
     }
 
@@ -115,10 +125,21 @@ impl PlaneSums {
         if let (Some(a), Some(b)) = (self.hits.get_mut(to), other.hits.get(from)) {
             *a += b;
         }
+        if let (Some(a), Some(b)) = (self.alpha.get_mut(to), other.alpha.get(from)) {
+            *a = a.wrapping_add(*b);
+        }
         if let (Some(a), Some(b)) = (self.ids.get_mut(to), other.ids.get(from)) {
             keep_lowest(a, *b);
         }
     }
+}
+
+/// `n` times `value`, or an error instead of an abort where the memory cannot be had.
+pub(crate) fn filled<T: Clone>(value: T, n: usize) -> Result<Vec<T>, TryReserveError> {
+    let mut out = Vec::new();
+    out.try_reserve_exact(n)?;
+    out.resize(n, value);
+    Ok(out)
 }
 
 /// Of two observations the one with the lower sample index: a choice that does not depend on the order.

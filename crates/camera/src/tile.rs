@@ -1,7 +1,9 @@
+use std::collections::TryReserveError;
+
 use etendue_core::{Spectrum, UVec2};
 
 use crate::fixed::to_fixed;
-use crate::planes::{FirstHit, PlaneSums, Planes};
+use crate::planes::{FirstHit, PlaneSums, Planes, filled};
 
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -52,15 +54,18 @@ pub struct Tile {
 
 impl Tile {
     /// An empty tile for a film of `replicates` replicates and `planes`.
-    pub fn new(rect: TileRect, replicates: u32, planes: Planes) -> Self {
-        let cells = rect.pixels() * replicates.max(1) as usize;
-        Self {
+    ///
+    /// # Errors
+    /// More memory than can be had.
+    pub fn try_new(rect: TileRect, replicates: u32, planes: Planes) -> Result<Self, TryReserveError> {
+        let cells = rect.pixels().saturating_mul(replicates.max(1) as usize);
+        Ok(Self {
             rect,
             replicates: replicates.max(1),
-            sums: vec![[0; 3]; cells],
-            counts: vec![0; cells],
-            planes: PlaneSums::new(planes, rect.pixels()),
-        }
+            sums: filled([0; 3], cells)?,
+            counts: filled(0, cells)?,
+            planes: PlaneSums::try_new(planes, rect.pixels())?,
+        })
     }
 
     /// The pixels covered.
@@ -96,6 +101,12 @@ impl Tile {
         };
         *sum = [sum[0].wrapping_add(r), sum[1].wrapping_add(g), sum[2].wrapping_add(b)];
         true
+    }
+
+    /// Adds the alpha of one sample, if the plane is kept.
+    pub fn add_alpha(&mut self, pixel: UVec2, alpha: f32) {
+        let i = self.pixel_index(pixel);
+        self.planes.add_alpha(i, alpha);
     }
 
     /// Adds what the auxiliary planes want of the sample with this index.

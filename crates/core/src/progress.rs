@@ -2,9 +2,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The one handle of every long call: it hears how far the work is, and may stop it.
 ///
-/// A stopped call returns what it has, valid. Called from any thread.
+/// A stopped render returns what it has, valid; a stopped build is an error, since half a hierarchy is none.
+/// Called from any thread.
 pub trait Progress: Sync {
-    /// `done` of `total` units are finished. The unit is the call's own.
+    /// `done` of `total` units are finished. The unit is the call's own. Never called twice at once; a call that is
+    /// still busy makes later ones be left out.
     fn update(&self, done: u64, total: u64) {
         let _ = (done, total);
     }

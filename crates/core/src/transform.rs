@@ -121,10 +121,11 @@ impl Transform {
         Self::from_columns(Vec3A::X * s.x, Vec3A::Y * s.y, Vec3A::Z * s.z, Vec3A::ZERO)
     }
 
-    /// A rotation by `angle` radians, counter-clockwise seen against the unit `axis` (Rodrigues).
+    /// A rotation by `angle` radians, counter-clockwise seen against the `axis` (Rodrigues). An axis without a
+    /// direction rotates nothing.
     pub fn rotation(axis: Vec3A, angle: f32) -> Self {
+        let Some(n) = vector::try_normalize(axis) else { return Self::IDENTITY };
         let (s, c) = crate::math::sin_cos(angle);
-        let n = vector::normalize(axis);
         let col = |e: Vec3A| e * c + n.cross(e) * s + n * (n.dot(e) * (1.0 - c));
         Self::from_columns(col(Vec3A::X), col(Vec3A::Y), col(Vec3A::Z), Vec3A::ZERO).unwrap_or(Self::IDENTITY)
     }

@@ -7,7 +7,7 @@ use etendue_core::{Clock, Progress, UVec2};
 pub struct RenderOptions<'a> {
     /// Sample indices to draw for every pixel; `None` for all of the sampler's.
     pub samples: Option<Range<u64>>,
-    /// Side of a tile in pixels; any value gives the same picture.
+    /// Side of a tile in pixels, between 4 and 256; any value gives the same picture.
     pub tile: u32,
     /// Where samples lie around a pixel's centre.
     pub filter: Filter,
@@ -45,6 +45,9 @@ pub enum RenderError {
         /// Replicates of the sampler.
         sampler: u32,
     },
+    /// Not even one tile fits in memory any more.
+    #[error("out of memory while rendering; use fewer auxiliary planes or replicates")]
+    OutOfMemory,
     /// A time budget without a clock.
     #[error("a time budget needs a clock: set RenderOptions::clock")]
     NoClock,

@@ -27,7 +27,7 @@ pub enum DirectLight {
 /// When paths are ended early, survivors carrying their weight: unbiased.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Roulette {
-    /// Only where a path could otherwise go on for ever (see [`PathTracer`]).
+    /// As below, but only past 256 scattering events, where a path could otherwise go on for ever.
     Off,
     /// A path of at least `from` scattering events goes on with the probability of its largest throughput channel
     /// (radiance scaling by refraction taken out), at least 5 %.
@@ -97,7 +97,12 @@ impl PathTracer {
         }
         match self.direct {
             DirectLight::None | DirectLight::Bsdf => (1.0, 0.0),
-            DirectLight::Light => (0.0, 0.0),
+            // What light sampling cannot draw from there (a picker that skips it, a light too far to fill an angle)
+            // would be lost.
+            DirectLight::Light => {
+                let light_pdf = cx.scene.light_pdf(&from.at, id, wi, seen);
+                (if light_pdf > 0.0 { 0.0 } else { 1.0 }, light_pdf)
+            }
             DirectLight::MisBalance | DirectLight::MisPower => {
                 let light_pdf = cx.scene.light_pdf(&from.at, id, wi, seen);
                 (self.weigh(cx, from.pdf, light_pdf), light_pdf)
@@ -108,7 +113,7 @@ impl PathTracer {
     /// MIS weight of a light sample whose direction the BSDF draws with `bsdf_pdf`.
     fn weight_of_drawn(&self, cx: &Context<'_>, draw: &LightDraw, bsdf_pdf: f32) -> f32 {
         match self.direct {
-            _ if draw.sample.is_delta => 1.0,
+            _ if draw.only_way => 1.0,
             DirectLight::MisBalance | DirectLight::MisPower => self.weigh(cx, draw.sample.pdf, bsdf_pdf),
             _ => 1.0,
         }
@@ -126,23 +131,28 @@ impl PathTracer {
         if self.direct == DirectLight::None || !lobes.intersects(Lobes::DIFFUSE | Lobes::GLOSSY) {
             return None;
         }
-        // Lights that BSDF samples find are left to them; without delta lights nothing remains.
+        // Lights that BSDF samples find are left to them.
+        if self.direct == DirectLight::Bsdf && !cx.scene.has_hidden_lights() {
+            return None;
+        }
         cx.count(|c| {
             c.light_picks += 1;
             c.draws_light += 2;
         });
         let draw = cx.scene.sample_light(at, u.get_2d(Dim::bounce(depth, Slot::Light)))?;
-        (draw.sample.is_delta || self.direct != DirectLight::Bsdf).then_some(draw)
+        (draw.only_way || self.direct != DirectLight::Bsdf).then_some(draw)
     }
 
     /// Probability of going on after `depth` scattering events; 1 draws no random number.
     fn survival(&self, depth: u32, beta: Spectrum, eta_scale: f32) -> f32 {
-        let p = match self.roulette {
-            Roulette::Throughput { from } if depth >= from => {
-                (beta.max_channel() * eta_scale).clamp(LEAST_SURVIVAL, 1.0)
-            }
-            _ => 1.0,
+        let from = match self.roulette {
+            Roulette::Throughput { from } => from.min(LONG_PATH),
+            Roulette::Off => LONG_PATH,
         };
+        if depth < from {
+            return 1.0;
+        }
+        let p = (beta.max_channel() * eta_scale).clamp(LEAST_SURVIVAL, 1.0);
         if depth >= LONG_PATH && p > LONG_SURVIVAL { LONG_SURVIVAL } else { p }
     }
 
@@ -157,6 +167,8 @@ impl PathTracer {
         let needs = scene.needs();
         let mut out = Sample::default();
         if !needs.contains(Needs::LIGHTS) && !rec.wants_vertices() {
+            let hit = scene.intersect(&s.ray, cutout_bits(cx, needs, &u, 0, false));
+            out.alpha = if hit.is_some() { 1.0 } else { 0.0 };
             return out;
         }
         let mut ray = s.ray;
@@ -208,16 +220,6 @@ impl PathTracer {
 
             let Some(material) = scene.material(&surface) else { return out };
             let bsdf = material.bsdf(&surface);
-            cx.count(|c| c.texture_fetches += u64::from(surface.fetches.get()));
-            rec.vertex(&Vertex { depth, surface: &surface, wo, distance: hit.t, bsdf: &bsdf, beta });
-            let lobes = bsdf.lobes();
-            if self.max_depth.is_some_and(|m| depth >= m)
-                || !needs.contains(Needs::LIGHTS)
-                || !lobes.intersects(Lobes::REFLECTION | Lobes::TRANSMISSION)
-            {
-                return out;
-            }
-
             // A ray that comes from behind the shading normal sees the geometric one: nothing turns black, and no
             // direction carries more than it should.
             let front = wo.dot(surface.ng) >= 0.0;
@@ -226,6 +228,16 @@ impl PathTracer {
             } else {
                 Frame::from_normal(surface.ng)
             };
+            cx.count(|c| c.texture_fetches += u64::from(surface.fetches.get()));
+            rec.vertex(&Vertex { depth, surface: &surface, frame, wo, distance: hit.t, bsdf: &bsdf, beta });
+            let lobes = bsdf.lobes();
+            if self.max_depth.is_some_and(|m| depth >= m)
+                || !needs.contains(Needs::LIGHTS)
+                || !lobes.intersects(Lobes::REFLECTION | Lobes::TRANSMISSION)
+            {
+                return out;
+            }
+
             let side = if front { 1.0 } else { -1.0 };
             let at = LitPoint {
                 p: surface.p,
@@ -270,6 +282,14 @@ impl PathTracer {
                 return out;
             }
             beta *= sample.weight;
+            // No number any more: handed on as it is, so that the film refuses the sample and says where.
+            if !beta.is_finite() {
+                out.l += beta;
+                return out;
+            }
+            if beta.is_black() {
+                return out;
+            }
             if sample.lobe.contains(Lobes::TRANSMISSION) {
                 eta_scale *= sample.eta * sample.eta;
             }

@@ -1,10 +1,11 @@
 use etendue_bsdf::{Bsdf, BsdfAt};
-use etendue_camera::{FirstHit, Ids};
-use etendue_core::{Spectrum, Vec3A};
+use etendue_camera::{FirstHit, Ids, Planes};
+use etendue_core::{Frame, Spectrum, Vec3A};
 use etendue_geometry::Surface;
 use etendue_light::LightId;
 
 /// A path reached a surface.
+#[non_exhaustive]
 pub struct Vertex<'a> {
     /// Scattering events before it.
     pub depth: u32,
@@ -14,13 +15,16 @@ pub struct Vertex<'a> {
     pub wo: Vec3A,
     /// Distance from the previous vertex, metres.
     pub distance: f32,
-    /// The BSDF, and the frame it lives in is `surface.shading` unless the ray came from behind the shading normal.
+    /// The frame that the BSDF lives in: `surface.shading`, or the geometric one where the ray came from behind it.
+    pub frame: Frame,
+    /// The BSDF.
     pub bsdf: &'a BsdfAt<'a>,
     /// Throughput on arrival.
     pub beta: Spectrum,
 }
 
 /// How light was found.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ContributionKind {
     /// The path hit an emitting surface.
@@ -32,6 +36,7 @@ pub enum ContributionKind {
 }
 
 /// Light added to a sample.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contribution {
     /// Scattering events on the way.
@@ -80,6 +85,8 @@ impl Recorder for () {
 /// Keeps what the film's auxiliary planes want.
 #[derive(Clone, Debug, Default)]
 pub struct FirstHitRecorder {
+    /// What is asked for; the albedo of other planes' samples is not computed and stays black.
+    pub planes: Planes,
     /// The first surface, if one was hit.
     pub first: Option<FirstHit>,
 }
@@ -89,7 +96,11 @@ impl Recorder for FirstHitRecorder {
         if v.depth == 0 && self.first.is_none() {
             let s = v.surface;
             self.first = Some(FirstHit {
-                albedo: v.bsdf.albedo(s.shading.to_local(v.wo)),
+                albedo: if self.planes.albedo {
+                    v.bsdf.albedo(v.frame.to_local(v.wo))
+                } else {
+                    Spectrum::BLACK
+                },
                 normal: s.shading.z,
                 depth: v.distance,
                 ids: Ids { inst: s.inst, geom: s.geom, prim: s.prim },

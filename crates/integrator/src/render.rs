@@ -1,7 +1,7 @@
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use etendue_camera::{Camera, CameraSample, Film, FilterSampler, FirstHit, Tile, TileRect};
+use etendue_camera::{Camera, CameraSample, Film, FilterSampler, FirstHit, Planes, Tile, TileRect};
 use etendue_core::{Needs, Spectrum, UVec2, Vec2};
 use etendue_sampling::{Dim, Sampler};
 use etendue_scene::Scene;
@@ -63,7 +63,7 @@ impl<S: Sampler> Job<'_, S> {
         tile: &mut Tile,
         pixel: UVec2,
         indices: std::ops::Range<u64>,
-        planes: bool,
+        planes: Planes,
         rejected: &mut Vec<Rejected>,
     ) {
         let replicates = u64::from(self.sampler.replicates().max(1));
@@ -72,14 +72,15 @@ impl<S: Sampler> Job<'_, S> {
                 rejected.push(Rejected { pixel, index, value: l });
             }
         };
-        if planes {
+        if planes.any() {
             for index in indices {
                 let Some(s) = self.start(cx, pixel, index) else {
                     add(tile, index, Spectrum::BLACK);
                     continue;
                 };
-                let mut rec = FirstHitRecorder::default();
+                let mut rec = FirstHitRecorder { planes, first: None };
                 let out = self.integrator.li(cx, &s.sample, s.u, &mut rec);
+                tile.add_alpha(pixel, out.alpha);
                 if let Some(first) = rec.first {
                     tile.add_first_hit(pixel, index, &first);
                 }
@@ -99,6 +100,7 @@ impl<S: Sampler> Job<'_, S> {
                 None => add(tile, index, Spectrum::BLACK),
             }
             if paths.len() == BATCH || index + 1 == indices.end {
+                out.fill(crate::Sample::default());
                 self.integrator.li_batch(cx, &paths, &mut out[..paths.len()]);
                 for (&(index, weight), o) in tags.iter().zip(&out) {
                     add(tile, index, o.l * weight);
@@ -144,9 +146,11 @@ pub fn render<S: Sampler>(
     let indices = options.samples.clone().unwrap_or(0..u64::from(sampler.spp()));
     let pixels = u64::from(size.x) * u64::from(size.y);
     let total = indices.end.saturating_sub(indices.start).saturating_mul(pixels);
-    let tiles = TileRect::split(size, options.tile);
+    // Any side gives the same picture; absurd ones would only cost memory.
+    let tiles = TileRect::split(size, options.tile.clamp(4, 256));
 
     let done = AtomicU64::new(0);
+    let (told, out_of_memory) = (Mutex::new(0), AtomicBool::new(false));
     let shared = Mutex::new((film, Counts::default(), Vec::<Rejected>::new(), 0u64));
     let cancelled = || options.progress.cancelled();
     let run_tile = |rect: &TileRect, pass: &std::ops::Range<u64>| {
@@ -154,13 +158,16 @@ pub fn render<S: Sampler>(
             return;
         }
         let cx = Context::new(job.scene);
-        let mut tile = Tile::new(*rect, replicates, planes);
+        let Ok(mut tile) = Tile::try_new(*rect, replicates, planes) else {
+            out_of_memory.store(true, Ordering::Relaxed);
+            return;
+        };
         let (mut rejected, mut drawn) = (Vec::new(), 0);
         for pixel in rect.iter() {
             if cancelled() {
                 break;
             }
-            job.pixel(&cx, &mut tile, pixel, pass.clone(), planes.any(), &mut rejected);
+            job.pixel(&cx, &mut tile, pixel, pass.clone(), planes, &mut rejected);
             drawn += pass.end - pass.start;
         }
         // A panic elsewhere must not lose this tile: the sums are plain integers and stay valid.
@@ -173,17 +180,29 @@ pub fn render<S: Sampler>(
         if all_rejected.len() > 4 * Report::REJECTED_KEPT {
             keep_first(all_rejected);
         }
+        // The listener is foreign code: it must not run under the lock, nor two at a time.
+        drop(guard);
         let so_far = done.fetch_add(drawn, Ordering::Relaxed) + drawn;
-        options.progress.update(so_far, total);
+        if let Ok(mut last) = told.try_lock()
+            && *last < so_far
+        {
+            *last = so_far;
+            options.progress.update(so_far, total);
+        }
     };
 
     let mut ended = Ended::Complete;
+    let mut complete = indices.start..indices.start;
     for pass in passes(indices, options.seconds.is_some()) {
         for_each_tile(&tiles, |rect| run_tile(rect, &pass));
+        if out_of_memory.load(Ordering::Relaxed) {
+            return Err(RenderError::OutOfMemory);
+        }
         if cancelled() && done.load(Ordering::Relaxed) < total {
             ended = Ended::Cancelled;
             break;
         }
+        complete.end = pass.end;
         if let (Some(budget), Some(t)) = (options.seconds, elapsed())
             && t >= budget
             && done.load(Ordering::Relaxed) < total
@@ -192,11 +211,13 @@ pub fn render<S: Sampler>(
             break;
         }
     }
+    options.progress.update(done.load(Ordering::Relaxed), total);
     let (_, counts, mut rejected_at, rejected) =
         shared.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     keep_first(&mut rejected_at);
     Ok(Report {
         samples: done.into_inner(),
+        complete,
         counts,
         rejected,
         rejected_at,
@@ -272,7 +293,7 @@ pub fn replay<S: Sampler>(
     let Some(s) = job.start(&cx, pixel, index) else {
         return Replay { camera: None, contribution: Spectrum::BLACK, first: None };
     };
-    let mut both = Both { first: FirstHitRecorder::default(), rec };
+    let mut both = Both { first: FirstHitRecorder { planes: Planes::ALL, first: None }, rec };
     let out = integrator.li(&cx, &s.sample, s.u, &mut both);
     Replay { camera: Some(s.sample), contribution: out.l * s.weight, first: both.first.first }
 }

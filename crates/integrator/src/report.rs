@@ -14,6 +14,7 @@ pub struct Rejected {
 }
 
 /// Why a render ended.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Ended {
     /// All samples asked for are in the film.
@@ -26,10 +27,14 @@ pub enum Ended {
 }
 
 /// What a render did.
+#[non_exhaustive]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// Camera samples added to the film.
     pub samples: u64,
+    /// Sample indices that every pixel has. A cancelled render may hold more of some pixels; to go on exactly, keep
+    /// a film of whole ranges.
+    pub complete: std::ops::Range<u64>,
     /// Work counted by kind.
     pub counts: Counts,
     /// Samples that could not be added.

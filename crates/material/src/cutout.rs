@@ -71,7 +71,8 @@ impl<M: Material> Material for Cutout<M> {
     fn fingerprint(&self, f: &mut Fingerprint) {
         f.tag("cutout");
         f.u64(u64::from(self.vertex_alpha));
-        f.f32(self.threshold.unwrap_or(-1.0));
+        f.u64(u64::from(self.threshold.is_some()));
+        f.f32(self.threshold.unwrap_or(0.0));
         self.opacity.fingerprint(f);
         self.base.fingerprint(f);
     }

@@ -1,9 +1,9 @@
 use std::sync::Arc;
 
 use etendue_bvh::{Accel, BuildError, BuildOptions, Instance, TreeAccel, World};
-use etendue_core::{Progress, Transform};
+use etendue_core::{Aabb, Needs, Progress, Transform};
 use etendue_geometry::Geometry;
-use etendue_light::{Light, LightPicker, PowerPicker};
+use etendue_light::{Light, LightId, LightPicker, PowerPicker, SinglePicker};
 use etendue_material::Material;
 use etendue_texture::Tex;
 
@@ -63,8 +63,8 @@ impl Emission {
     }
 }
 
-pub(crate) type AccelMaker = Box<dyn FnOnce(&World) -> Result<Box<dyn Accel>, BuildError>>;
-pub(crate) type PickerMaker = Box<dyn FnOnce(&[Arc<dyn Light>], f32) -> Option<Box<dyn LightPicker>>>;
+pub(crate) type AccelMaker = Box<dyn FnOnce(&World) -> Result<Box<dyn Accel>, BuildError> + Send>;
+pub(crate) type PickerMaker = Box<dyn FnOnce(&[Arc<dyn Light>], f32) -> Option<Box<dyn LightPicker>> + Send>;
 
 /// Collects geometry, materials and lights, then builds the [`Scene`].
 ///
@@ -128,7 +128,11 @@ impl SceneBuilder {
         for g in geometry {
             self.check("geometry", g.0, self.geometries.len());
         }
-        self.groups.push(geometry.iter().map(|g| g.0).collect());
+        // A geometry named twice stands there once.
+        let mut ids: Vec<u32> = geometry.iter().map(|g| g.0).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        self.groups.push(ids.into());
         GroupId(self.groups.len() as u32 - 1)
     }
 
@@ -161,19 +165,24 @@ impl SceneBuilder {
 
     /// Adds a light that is not a surface of the scene: a point, an environment, a user's own.
     pub fn light(&mut self, light: impl Light + 'static) {
-        self.lights.push(Arc::new(light));
+        self.light_arc(Arc::new(light));
+    }
+
+    /// Adds a light that is shared with others.
+    pub fn light_arc(&mut self, light: Arc<dyn Light>) {
+        self.lights.push(light);
     }
 
     /// Uses another ray-query structure than ours.
-    pub fn accel_with(&mut self, make: impl FnOnce(&World) -> Result<Box<dyn Accel>, BuildError> + 'static) {
+    pub fn accel_with(&mut self, make: impl FnOnce(&World) -> Result<Box<dyn Accel>, BuildError> + Send + 'static) {
         self.accel = Some(Box::new(make));
     }
 
-    /// Uses another choice of lights than by power. The function gets the scene's lights and its radius in metres;
-    /// a light that the picker never picks must not be reachable by rays either, or it is counted twice as rarely.
+    /// Uses another choice of lights than by power. The function gets the scene's lights and its radius in metres.
+    /// A light that the picker never picks is found by rays alone, if at all.
     pub fn picker_with(
         &mut self,
-        make: impl FnOnce(&[Arc<dyn Light>], f32) -> Option<Box<dyn LightPicker>> + 'static,
+        make: impl FnOnce(&[Arc<dyn Light>], f32) -> Option<Box<dyn LightPicker>> + Send + 'static,
     ) {
         self.picker = Some(Box::new(make));
     }
@@ -184,13 +193,11 @@ impl SceneBuilder {
     }
 
     /// A box around everything bounded that has been placed so far.
-    pub fn bounds(&self) -> etendue_core::Aabb {
-        let boxes = self.direct.iter().map(|&g| self.geometries[g as usize].bounds()).chain(
-            self.instances.iter().flat_map(|i| {
-                i.geoms.iter().map(|&g| i.to_world.aabb(&self.geometries[g as usize].bounds()))
-            }),
-        );
-        boxes.filter(etendue_core::Aabb::is_finite).fold(etendue_core::Aabb::EMPTY, etendue_core::Aabb::union)
+    pub fn bounds(&self) -> Aabb {
+        let of = |g: u32| self.geometries.get(g as usize).map_or(Aabb::EMPTY, Geometry::bounds);
+        let placed = |i: &Instance| i.geoms.iter().fold(Aabb::EMPTY, |b, &g| b.union(i.to_world.aabb(&of(g))));
+        let boxes = self.direct.iter().map(|&g| of(g)).chain(self.instances.iter().map(placed));
+        boxes.filter(Aabb::is_finite).fold(Aabb::EMPTY, Aabb::union)
     }
 
     /// Ids are remembered, not checked where they are used: the first wrong one becomes the error of `build`.
@@ -223,8 +230,11 @@ impl SceneBuilder {
             }
         }
         for (i, instance) in self.instances.iter().enumerate() {
+            if !instance.to_world.columns().iter().all(|c| c.is_finite()) {
+                return Err(SceneError::BadPlacement { instance: i });
+            }
             for &geom in instance.geoms.iter() {
-                if self.geometries[geom as usize].bounds() == etendue_core::Aabb::INFINITE {
+                if self.geometries[geom as usize].bounds() == Aabb::INFINITE {
                     return Err(SceneError::InfiniteInstance { group: self.instance_groups[i], geom });
                 }
             }
@@ -246,14 +256,24 @@ impl SceneBuilder {
         let picking_radius = picking_radius(radius, &emitters.lights);
         let picker = match self.picker.take() {
             Some(make) => make(&emitters.lights, picking_radius),
+            // One light of one part needs no choice.
+            None if report.light_parts == 1 => {
+                Some(Box::new(SinglePicker::new(LightId { light: 0, part: 0 })) as Box<dyn LightPicker>)
+            }
             None => PowerPicker::new(&emitters.lights, picking_radius)
                 .map(|p| Box::new(p) as Box<dyn LightPicker>),
         };
         census::take(&world, &self.materials, &self.geom_materials, &emitters, &mut report);
         report.memory.hierarchy = accel.bytes();
         report.memory.lights += picker.as_ref().map_or(0, |p| p.bytes());
+        let mut cut = Vec::new();
+        if report.needs.contains(Needs::CUTOUTS) {
+            let opaque = |m: &u32| !self.materials[*m as usize].needs().contains(Needs::CUTOUTS);
+            cut = self.geom_materials.iter().map(|m| !opaque(m)).collect();
+        }
         Ok(Scene::assemble(Parts {
             world,
+            cut,
             accel,
             picker,
             materials: self.materials,

@@ -12,9 +12,12 @@ pub(crate) struct Emitters {
     pub(crate) lights: Vec<Arc<dyn Light>>,
     /// Indices of the lights that escaped rays meet.
     pub(crate) infinite: Vec<u32>,
+    /// By light: whether rays of the scene can find it at all. Delta lights, lights that are no surface of the
+    /// scene, and surfaces that no ray sees can only be sampled.
+    pub(crate) found_by_rays: Vec<bool>,
     /// Light of geometry that stands in the world itself, by geometry id; empty when nothing emits.
     direct: Vec<Option<u32>>,
-    /// (geometry, light) pairs per instance; empty when nothing instanced emits.
+    /// (geometry, light) pairs per instance, ascending; empty when nothing instanced emits.
     instanced: Vec<Vec<(u32, u32)>>,
 }
 
@@ -25,7 +28,9 @@ impl Emitters {
         if inst == etendue_geometry::Hit::NO_INSTANCE {
             return self.direct.get(geom as usize).copied().flatten();
         }
-        self.instanced.get(inst as usize)?.iter().find(|(g, _)| *g == geom).map(|(_, l)| *l)
+        let pairs = self.instanced.get(inst as usize)?;
+        let at = pairs.binary_search_by_key(&geom, |(g, _)| *g).ok()?;
+        pairs.get(at).map(|(_, light)| *light)
     }
 
     pub(crate) fn fingerprint(&self, f: &mut Fingerprint) {
@@ -46,7 +51,13 @@ impl Emitters {
 /// Turns emitting surfaces into lights and drops lights that emit nothing.
 pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emitters, SceneError> {
     let mut out =
-        Emitters { lights: Vec::new(), infinite: Vec::new(), direct: Vec::new(), instanced: Vec::new() };
+        Emitters {
+            lights: Vec::new(),
+            infinite: Vec::new(),
+            found_by_rays: Vec::new(),
+            direct: Vec::new(),
+            instanced: Vec::new(),
+        };
     for (geom, emission) in b.emission.iter().enumerate() {
         let Some(e) = emission else { continue };
         let (mean, max) = (e.radiance.mean(), e.radiance.max());
@@ -60,7 +71,7 @@ pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emit
             return Err(SceneError::CannotEmit { geom: geom as u32, why });
         }
     }
-    let mut keep = |light: Arc<dyn Light>| -> Option<u32> {
+    let mut keep = |light: Arc<dyn Light>, seen: bool| -> Option<u32> {
         // The radius only scales; any positive one tells zero from nonzero.
         if (0..light.parts()).all(|p| light.power(p, 1.0).is_black()) {
             report.zero_power_lights += 1;
@@ -69,17 +80,22 @@ pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emit
         if light.is_infinite() {
             out.infinite.push(out.lights.len() as u32);
         }
+        out.found_by_rays.push(seen && !light.is_delta());
         out.lights.push(light);
         Some(out.lights.len() as u32 - 1)
     };
-    for light in &b.lights {
-        keep(light.clone());
+    for (i, light) in b.lights.iter().enumerate() {
+        if light.is_infinite() && light.parts() != 1 {
+            return Err(SceneError::PartsAtInfinity { light: i, parts: light.parts() });
+        }
+        keep(light.clone(), light.is_infinite());
     }
     if b.emission.iter().any(Option::is_some) {
         out.direct = vec![None; b.geometries.len()];
         for &geom in &b.direct {
             if let Some(e) = &b.emission[geom as usize] {
-                out.direct[geom as usize] = keep(light_of(&b.geometries[geom as usize], geom, None, e)?);
+                let light = light_of(&b.geometries[geom as usize], geom, None, e)?;
+                out.direct[geom as usize] = keep(light, b.masks[geom as usize] != 0);
             }
         }
         if b.instances.iter().any(|i| i.geoms.iter().any(|&g| b.emission[g as usize].is_some())) {
@@ -89,13 +105,20 @@ pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emit
                     if let Some(e) = &b.emission[geom as usize] {
                         let geometry = &b.geometries[geom as usize];
                         let light = light_of(geometry, geom, Some(&instance.to_world), e)?;
-                        pairs.extend(keep(light).map(|l| (geom, l)));
+                        let seen = b.masks[geom as usize] & instance.mask != 0;
+                        pairs.extend(keep(light, seen).map(|l| (geom, l)));
                     }
                 }
+                pairs.sort_unstable();
                 out.instanced.push(pairs);
             }
         }
     }
+    let mut unplaced: Vec<bool> = b.emission.iter().map(Option::is_some).collect();
+    for &g in b.direct.iter().chain(b.instances.iter().flat_map(|i| i.geoms.iter())) {
+        unplaced[g as usize] = false;
+    }
+    report.unplaced_emitters = unplaced.into_iter().filter(|&u| u).count() as u64;
     report.lights = out.lights.len() as u64;
     report.light_parts = out.lights.iter().map(|l| u64::from(l.parts())).sum();
     report.memory.lights = out.lights.iter().map(|l| l.bytes()).sum();
@@ -113,8 +136,9 @@ fn light_of(
     let to_world = to_world.copied();
     // A placed shape may be sheared out of its family: it is sampled by area, like a shape from outside.
     let by_area = |shape: Arc<dyn Shape>| -> Result<Arc<dyn Light>, SceneError> {
-        if shape.area() <= 0.0 {
-            return Err(cannot("the shape gives no area, so no point on it can be drawn"));
+        let drawn = shape.sample(etendue_core::Vec2::splat(0.5));
+        if !(shape.area() > 0.0) || drawn.is_none() {
+            return Err(cannot("the shape gives no area or no samples; implement Shape::area and Shape::sample"));
         }
         Ok(Arc::new(ShapeLight::new(shape, to_world, radiance.clone(), two_sided)))
     };

@@ -48,6 +48,20 @@ pub enum SceneError {
         /// The geometry.
         geom: u32,
     },
+    /// A light at infinity in several parts: an escaped ray could not tell which it met.
+    #[error("light {light} is at infinity and has {parts} parts; add each part as a light of its own")]
+    PartsAtInfinity {
+        /// The light, in the order of addition.
+        light: usize,
+        /// Its parts.
+        parts: u32,
+    },
+    /// A placement with an entry that is not a number.
+    #[error("instance {instance} is placed by a transform that is not finite")]
+    BadPlacement {
+        /// The instance.
+        instance: usize,
+    },
     /// The hierarchy could not be built, or its building was cancelled.
     #[error("building the hierarchy: {0}")]
     Hierarchy(#[from] BuildError),

@@ -25,6 +25,8 @@ pub struct SceneReport {
     pub light_parts: u64,
     /// Lights that emit nothing, dropped.
     pub zero_power_lights: u64,
+    /// Emitting geometry that is placed nowhere and so gives no light.
+    pub unplaced_emitters: u64,
     /// Bytes held.
     pub memory: MemoryReport,
 }
@@ -66,6 +68,7 @@ impl fmt::Display for SceneReport {
             (self.duplicate_triangles, "triangles that stand twice dropped"),
             (self.non_finite_triangles, "triangles with unusable vertices dropped"),
             (self.zero_power_lights, "lights that emit nothing dropped"),
+            (self.unplaced_emitters, "emitting geometries placed nowhere"),
         ] {
             if n > 0 {
                 write!(f, "; {n} {what}")?;

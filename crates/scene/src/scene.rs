@@ -16,6 +16,8 @@ pub(crate) struct Parts {
     pub(crate) picker: Option<Box<dyn LightPicker>>,
     pub(crate) materials: Vec<Arc<dyn Material>>,
     pub(crate) geom_materials: Vec<u32>,
+    /// By geometry: whether its material has an opacity. Empty where none has.
+    pub(crate) cut: Vec<bool>,
     pub(crate) emitters: Emitters,
     pub(crate) report: SceneReport,
     pub(crate) radius: f32,
@@ -28,6 +30,9 @@ pub struct LightDraw {
     pub id: LightId,
     /// The sample; its `pdf` is the light's own times the probability of the pick.
     pub sample: LightSample,
+    /// Whether no ray of the scene can find this light, so that its samples have nothing to be weighed against: a
+    /// delta light, a light that is no surface of the scene, a surface that no ray sees.
+    pub only_way: bool,
 }
 
 /// An immutable scene, shared by any number of threads and renders.
@@ -81,11 +86,17 @@ impl Scene {
         &self.parts.emitters.lights
     }
 
+    /// Whether some light can be sampled only, never found by a ray (see [`LightDraw::only_way`]).
+    pub fn has_hidden_lights(&self) -> bool {
+        self.parts.emitters.found_by_rays.iter().any(|found| !found)
+    }
+
     fn cutout_filter(&self, bits: u32) -> Option<CutoutFilter<'_>> {
         self.needs().contains(Needs::CUTOUTS).then(|| CutoutFilter {
             world: &self.parts.world,
             materials: &self.parts.materials,
             geom_materials: &self.parts.geom_materials,
+            cut: &self.parts.cut,
             bits,
         })
     }
@@ -162,7 +173,8 @@ impl Scene {
         let light = self.parts.emitters.lights.get(pick.id.light as usize)?;
         let mut sample = light.sample(at, pick.id.part, Vec2::new(pick.u, u.y))?;
         sample.pdf *= pick.pmf;
-        (sample.pdf > 0.0 && !sample.li.is_black()).then_some(LightDraw { id: pick.id, sample })
+        let only_way = sample.is_delta || !self.parts.emitters.found_by_rays[pick.id.light as usize];
+        (sample.pdf > 0.0 && !sample.li.is_black()).then_some(LightDraw { id: pick.id, sample, only_way })
     }
 
     /// The density with which [`Scene::sample_light`] draws `wi` toward this light, sr⁻¹. `seen` is the point of the

@@ -190,7 +190,7 @@ impl Odd {
 
     /// One pair in 200 may: where nearly all light is reflected, the little that is not is a rounded difference.
     fn judge(&self, pairs: usize, test: &'static str, what: &str, judge: &mut Judge) -> Result<(), Failure> {
-        judge.require(self.count <= 1 + pairs / 200, test, || {
+        judge.require(self.count <= 3 + pairs / 200, test, || {
             format!("{what} for {} of {pairs} pairs; {}", self.count, self.first)
         })
     }
@@ -319,7 +319,7 @@ fn density(
 
     let (mean, se) = (spread.mean(), spread.standard_error());
     let whole = partition.other();
-    let p = p_of_z_beyond(mean - whole.value, whole.error + 1e-3 * mean, se);
+    let p = p_of_z_beyond(mean - whole.value, whole.error + unseen(mean, n), se);
     judge.p_value(p, "mean weight", || format!("samples say {mean}, the integral of eval is {whole:?}"))?;
     if mode == Mode::Importance {
         let most = weights.into_iter().max_by(|a, b| a.mean().total_cmp(&b.mean())).unwrap_or_default();
@@ -330,6 +330,13 @@ fn density(
         })?;
     }
     Ok(())
+}
+
+/// How far a mean of `n` samples may be off without their scatter saying so: by a value so rare that none or too few of
+/// it were drawn (a failed attempt among weights of 1, say), and by rounding.
+pub(crate) fn unseen(mean: f64, n: usize) -> f64 {
+    // exp(-20) is a fifth of the default level of one test.
+    mean * (20.0 / n as f64 + 1e-3)
 }
 
 /// Whether directions fit their density and its mass: three statistical tests.

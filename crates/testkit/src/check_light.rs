@@ -6,7 +6,7 @@ use etendue_light::{Light, LightSample, LitPoint, Sides};
 use etendue_sampling::{Moments, warp};
 
 use crate::budget::{Budget, EXTREMES, Failure, Judge, Outcome, Random};
-use crate::check_bsdf::fits;
+use crate::check_bsdf::{fits, unseen};
 use crate::partition::Partition;
 use crate::stats::p_of_z_beyond;
 
@@ -210,7 +210,7 @@ fn from_point(
     let partition = Partition::new(&scouts, &directions, n, sampled.mean(), random, &both);
     fits(&partition, directions.len(), n, judge)?;
     let (mean, around) = (sampled.mean(), partition.other());
-    let p = p_of_z_beyond(mean - around.value, around.error + 3e-3 * mean, sampled.standard_error());
+    let p = p_of_z_beyond(mean - around.value, around.error + unseen(mean, n), sampled.standard_error());
     judge.p_value(p, "irradiance", || {
         format!("{mean} ± {} by sampling the light, {around:?} by looking around", sampled.standard_error())
     })?;

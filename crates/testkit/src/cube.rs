@@ -43,6 +43,7 @@ pub(crate) struct Sums {
     pub(crate) integral: [f64; 2],
     /// The largest values met.
     pub(crate) peak: [f64; 2],
+    pub(crate) solid_angle: f64,
 }
 
 impl Sums {
@@ -50,6 +51,7 @@ impl Sums {
         Self {
             integral: [self.integral[0] + o.integral[0], self.integral[1] + o.integral[1]],
             peak: [self.peak[0].max(o.peak[0]), self.peak[1].max(o.peak[1])],
+            solid_angle: self.solid_angle + o.solid_angle,
         }
     }
 }
@@ -95,6 +97,7 @@ impl Cell {
                 let value = f(self.direction(u, v));
                 let q = 1.0 + u * u + v * v;
                 let weight = wx * wy * self.size * self.size / (q * q.sqrt());
+                out.solid_angle += weight;
                 for k in 0..2 {
                     out.integral[k] += weight * value[k];
                     out.peak[k] = out.peak[k].max(value[k]);

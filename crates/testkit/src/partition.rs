@@ -231,9 +231,8 @@ impl Build<'_> {
         let fine = parts.iter().fold(Sums::default(), |a, &b| a.plus(b));
         let off = [0, 1].map(|k| (fine.integral[k] - coarse.integral[k]).abs());
         // Rules may agree by chance where most of the integral is near one node, or beside all of them.
-        let solid_angle = cell.size * cell.size;
         let steep = |k: usize| {
-            let most = fine.peak[k] * solid_angle;
+            let most = fine.peak[k] * fine.solid_angle;
             most > 4.0 * fine.integral[k] && most > tolerance[k]
         };
         let hidden = |k: usize| probes.iter().any(|p| p.value[k] > 4.0 * fine.peak[k]);

@@ -111,7 +111,12 @@ pub fn read(
     let warnings = RefCell::new(Vec::new());
     let options =
         tobj::LoadOptions { triangulate: true, single_index: true, ignore_points: true, ignore_lines: true };
+    let read = RefCell::new(BTreeSet::new());
     let parsed = tobj::load_obj_buf(&mut lines, &options, |mtl| {
+        // A library named again and again is read once: the work stays in proportion to the files.
+        if !read.borrow_mut().insert(mtl.to_path_buf()) {
+            return Ok(Default::default());
+        }
         Ok(materials::parse(&mtl.to_string_lossy(), resolver, limits, &mut warnings.borrow_mut()))
     });
     report.warnings.append(&mut warnings.borrow_mut());
