@@ -46,15 +46,15 @@ fn at_the_patch(_: &Independent) -> Ray {
     Ray::new(Vec3A::new(0.0, -0.006, 0.008), Vec3A::new(0.0, 0.6, -0.8))
 }
 
-/// The patch shows albedo · E / π. Light samples alone and MIS see a bias of 1 % as five standard errors, 2 % where much
-/// of the light lies below the horizon; BSDF samples (which hit it with a probability of E / πL) one of 3 %.
+/// The patch shows albedo · E / π. Light samples alone and MIS see a bias of 1 % as five standard errors, 2.5 % where
+/// much of the light lies below the horizon; BSDF samples (which hit it with a probability of E / πL) one of 5 %.
 fn assert_irradiance(scene: &Scene, e: f64, cut: bool, what: &str) {
     for direct in WAYS {
         let truth = f64::from(ALBEDO) * FRAC_1_PI * e;
         let (n, power) = match (direct, cut) {
-            (DirectLight::Bsdf, _) => (600_000, 0.03),
+            (DirectLight::Bsdf, _) => (300_000, 0.05),
             (_, false) => (60_000, 0.01),
-            (_, true) => (200_000, 0.02),
+            (_, true) => (300_000, 0.025),
         };
         let xs = radiance(scene, &path(direct), 31, n, &at_the_patch);
         assert_mean(&xs, truth, power, &format!("{what}, {direct:?}"));
@@ -99,8 +99,8 @@ fn polygon_lights_obey_lamberts_formula() {
         assert_irradiance(&quad, e, cut, &format!("quad {name}"));
         let mesh = patch(|b| lamp(b, meshes::quad(o, u, v)));
         assert_irradiance(&mesh, e, cut, &format!("mesh {name}"));
-        let e = projected_solid_angle(&[corners[0], corners[1], corners[3]], DVec3::Z).0;
-        let triangle = [o, o + u, o + v].map(Vec3::from).to_vec();
+        let e = projected_solid_angle(&corners[1..], DVec3::Z).0;
+        let triangle = [o + u, o + u + v, o + v].map(Vec3::from).to_vec();
         let triangle = TriangleMesh::new(triangle, vec![[0, 1, 2]]).unwrap();
         assert_irradiance(&patch(|b| lamp(b, triangle)), e, cut, &format!("triangle {name}"));
         // What faces away is dark.
@@ -422,7 +422,8 @@ fn lights_add_up() {
     let camera = cornell(1).1;
     let look = |u: &Independent| camera.ray(u.get_2d(Dim::FILM), Vec2::ZERO, 0.0).unwrap().ray;
     for direct in WAYS {
-        let of = |scene: Scene, seed| radiance(&scene, &path(direct), seed, 400_000, &look);
+        let path = PathTracer { max_depth: Some(2), ..path(direct) };
+        let of = |scene: Scene, seed| radiance(&scene, &path, seed, 400_000, &look);
         let lamp = of(room(false, false, false), 1);
         for (name, a, b, both) in [
             ("quad and sphere", room(true, false, false), room(false, true, false), room(true, true, false)),

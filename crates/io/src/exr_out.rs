@@ -75,7 +75,8 @@ pub fn write_exr(path: &Path, film: &Film, info: &ExrInfo) -> Result<(), WriteEr
     note("etendue.spp", &format!("{samples}"));
     note("etendue.bias", &if info.bias.is_empty() { "none".into() } else { info.bias.join("; ") });
     for (name, value) in &info.notes {
-        note(&format!("etendue.{name}"), value);
+        // A name of their own, so that no note can stand in for what the library says.
+        note(&format!("etendue.note.{name}"), value);
     }
     let layer = Layer::new(
         (size.x as usize, size.y as usize),

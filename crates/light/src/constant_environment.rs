@@ -4,7 +4,7 @@ use etendue_core::{Fingerprint, Frame, Needs, Ray, Spectrum, Vec2, Vec3A};
 use etendue_geometry::Surface;
 use etendue_sampling::warp;
 
-use crate::emitter::{is_behind, positive};
+use crate::emitter::{infinite_power, is_behind, positive};
 use crate::{Light, LightBounds, LightSample, LitPoint, Sides};
 
 /// The same radiance from every direction: an overcast world, a furnace.
@@ -58,7 +58,7 @@ impl Light for ConstantEnvironment {
 
     /// π L on every point of the sphere's surface 4π R².
     fn power(&self, _part: u32, scene_radius: f32) -> Spectrum {
-        positive(self.radiance) * (4.0 * PI * PI * scene_radius * scene_radius)
+        infinite_power(positive(self.radiance) * (4.0 * PI), scene_radius)
     }
 
     fn bounds(&self, _part: u32) -> Option<LightBounds> {

@@ -96,7 +96,16 @@ pub(crate) fn floored(mean: Spectrum, tex: &Tex) -> Spectrum {
 
 /// Power of a Lambertian emitter, W: π times radiance times area, each channel rounded once. Two sides emit twice.
 pub(crate) fn lambertian_power(radiance: Spectrum, area: f64, two_sided: bool) -> Spectrum {
-    let factor = std::f64::consts::PI * area * if two_sided { 2.0 } else { 1.0 };
+    held_power(radiance, std::f64::consts::PI * area * if two_sided { 2.0 } else { 1.0 })
+}
+
+/// Power at infinity, W: what enters a sphere of the scene's radius, if `integral` is the radiance over all directions.
+pub(crate) fn infinite_power(integral: Spectrum, scene_radius: f32) -> Spectrum {
+    held_power(integral, std::f64::consts::PI * f64::from(scene_radius) * f64::from(scene_radius))
+}
+
+/// Each channel times a factor, rounded once.
+fn held_power(radiance: Spectrum, factor: f64) -> Spectrum {
     // What shines keeps a power that single precision can hold, however small or large the scene.
     let held = |p: f64| {
         if p > 0.0 { p.clamp(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)) as f32 } else { 0.0 }

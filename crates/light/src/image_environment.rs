@@ -7,7 +7,7 @@ use etendue_geometry::Surface;
 use etendue_sampling::{Distribution2d, DistributionError};
 use etendue_texture::{Filter, ImageTexture, Texture, Wrap};
 
-use crate::emitter::{is_behind, positive};
+use crate::emitter::{infinite_power, is_behind, positive};
 use crate::{EnvironmentError, Light, LightBounds, LightSample, LitPoint};
 
 /// An equirectangular image of the surrounding world.
@@ -180,7 +180,7 @@ impl Light for ImageEnvironment {
 
     /// L over the sphere's cross-section π R², from every direction.
     fn power(&self, _part: u32, scene_radius: f32) -> Spectrum {
-        self.integral * (std::f32::consts::PI * scene_radius * scene_radius)
+        infinite_power(self.integral, scene_radius)
     }
 
     fn bounds(&self, _part: u32) -> Option<LightBounds> {
