@@ -191,8 +191,8 @@ fn squares_exchange_their_form_factors() {
             lamp(&mut b, shape);
             let scene = b.build().unwrap();
             for direct in WAYS {
-                let power = if direct == DirectLight::Bsdf { 0.02 } else { 0.01 };
-                let xs = radiance(&scene, &path(direct), 41, 450_000, &anywhere);
+                let power = if direct == DirectLight::Bsdf { 0.025 } else { 0.015 };
+                let xs = radiance(&scene, &path(direct), 41, 250_000, &anywhere);
                 let what = format!("{name} {kind}, {direct:?}");
                 assert_mean(&xs, f64::from(ALBEDO) * form_factor, power, &what);
             }
@@ -317,9 +317,9 @@ fn a_pane_of_glass_lets_through_what_it_should() {
             wall(&mut b, z, toward);
             let scene = b.build().unwrap();
             for direct in WAYS {
-                let n = if truth < 0.2 { 400_000 } else { 100_000 };
+                let n = if truth < 0.2 { 250_000 } else { 50_000 };
                 let xs = radiance(&scene, &path(direct), 71, n, &look);
-                assert_mean(&xs, truth, 0.03, &format!("cos {cos}, {what}, {direct:?}"));
+                assert_mean(&xs, truth, 0.04, &format!("cos {cos}, {what}, {direct:?}"));
             }
         }
     }
@@ -364,7 +364,7 @@ fn total_reflection_and_the_square_of_the_index() {
                 0.03,
                 &format!("{deg}, outside, {direct:?}"),
             );
-            assert_mean(&of(&inside, 400_000), f, 0.05, &format!("{deg}, inside, {direct:?}"));
+            assert_mean(&of(&inside, 200_000), f, 0.07, &format!("{deg}, inside, {direct:?}"));
         }
     }
 }
@@ -416,14 +416,14 @@ fn room(quad: bool, sphere: bool, sky: bool) -> Scene {
     b.build().unwrap()
 }
 
-/// Light adds: with A and B it is what A and B give alone, the preset's lamp counted once. A term of 3 % would be seen.
+/// Light adds: with A and B it is what A and B give alone, the preset's lamp counted once. A term of 5 % would be seen.
 #[test]
 fn lights_add_up() {
     let camera = cornell(1).1;
     let look = |u: &Independent| camera.ray(u.get_2d(Dim::FILM), Vec2::ZERO, 0.0).unwrap().ray;
     for direct in WAYS {
         let path = PathTracer { max_depth: Some(2), ..path(direct) };
-        let of = |scene: Scene, seed| radiance(&scene, &path, seed, 400_000, &look);
+        let of = |scene: Scene, seed| radiance(&scene, &path, seed, 200_000, &look);
         let lamp = of(room(false, false, false), 1);
         for (name, a, b, both) in [
             ("quad and sphere", room(true, false, false), room(false, true, false), room(true, true, false)),
@@ -433,7 +433,7 @@ fn lights_add_up() {
             let sum: Vec<f64> = a.iter().zip(&b).zip(&lamp).map(|((a, b), l)| a + b - l).collect();
             let test = welch_test(&both, &sum);
             assert!(!test.rejects(1e-6), "{name}, {direct:?}: {test:?}");
-            let power = if direct == DirectLight::Bsdf { 0.08 } else { 0.03 };
+            let power = if direct == DirectLight::Bsdf { 0.12 } else { 0.05 };
             assert!(5.0 * test.standard_error < power * test.truth, "{name}, {direct:?}: {test:?}");
         }
     }

@@ -21,7 +21,8 @@ fn mean(scene: &Scene, path: &PathTracer, n: u64, ray: Ray) -> f64 {
 /// The direct light of all ways, 4 % apart at most: a light counted twice, half or not at all is far beyond.
 fn all_agree(scene: &Scene) {
     let ray = Ray::new(Vec3A::new(0.1, 0.5, 0.0), Vec3A::NEG_Y);
-    let of = |direct| mean(scene, &PathTracer { direct, max_depth: Some(1), ..Default::default() }, 20_000, ray);
+    let of =
+        |direct| mean(scene, &PathTracer { direct, max_depth: Some(1), ..Default::default() }, 20_000, ray);
     let found = ALL.map(of);
     assert!(found[0] > 0.1 && found.iter().all(|x| (x / found[0] - 1.0).abs() < 0.04), "{found:?}");
 }
@@ -179,7 +180,11 @@ fn without_roulette_paths_still_end() {
     let path = PathTracer { roulette: Roulette::Off, ..Default::default() };
     let ray = Ray::new(Vec3A::new(0.1, 0.0, 0.0), Vec3A::X);
     for i in 0..20 {
-        path.li_plain(&cx, &CameraSample { ray, weight: 1.0, spread: 0.0 }, Independent::new(1, 1).start(i, 0));
+        path.li_plain(
+            &cx,
+            &CameraSample { ray, weight: 1.0, spread: 0.0 },
+            Independent::new(1, 1).start(i, 0),
+        );
     }
     assert!(cx.counts().scatter_rays / 20 < 400, "{:?}", cx.counts());
 }

@@ -120,7 +120,7 @@ fn exr_reads_back_with_its_planes_and_notes() {
     };
     assert_eq!(note("etendue.spp").as_deref(), Some("2"));
     assert_eq!(note("etendue.bias").as_deref(), Some("max_depth=3; clamped"));
-    assert_eq!(note("etendue.seed").as_deref(), Some("17"));
+    assert_eq!(note("etendue.note.seed").as_deref(), Some("17"));
     assert_eq!(note("etendue.sampler").as_deref(), Some("sobol"));
     assert_eq!(layer.attributes.software_name.as_ref().map(ToString::to_string).as_deref(), Some("etendue"));
 }

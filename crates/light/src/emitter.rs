@@ -3,7 +3,8 @@
 //! scales them exactly.
 
 use etendue_core::glam::DVec3;
-use etendue_core::{Origin, Spectrum, Vec3A};
+use etendue_core::{Needs, Origin, Spectrum, Vec3A};
+use etendue_geometry::Surface;
 use etendue_texture::{Tex, TexPoint, Texture};
 
 use crate::{LitPoint, Sides};
@@ -92,6 +93,19 @@ pub(crate) fn floored(mean: Spectrum, tex: &Tex) -> Spectrum {
         if mean > floor { mean } else { floor }
     };
     Spectrum::rgb(pick(mean.r(), most.r()), pick(mean.g(), most.g()), pick(mean.b(), most.b()))
+}
+
+/// Radiance that a point of an emitter sends along `wo`.
+#[inline]
+pub(crate) fn emitted(tex: &Tex, two_sided: bool, at: &Surface, wo: Vec3A) -> Spectrum {
+    if two_sided || at.ng.dot(wo) > 0.0 { radiance(tex, &TexPoint::of(at)) } else { Spectrum::BLACK }
+}
+
+/// What a light with a surface asks of the renderer.
+pub(crate) fn needs(tex: &Tex) -> Needs {
+    let mut needs = Needs::LIGHTS | Needs::AREA_LIGHTS;
+    needs.set(Needs::TEXTURES, !tex.is_constant());
+    needs
 }
 
 /// Power of a Lambertian emitter, W: π times radiance times area, each channel rounded once. Two sides emit twice.

@@ -8,7 +8,7 @@ use etendue_sampling::warp::{self, SphericalTriangle};
 use etendue_texture::{Tex, TexPoint, Texture};
 
 use crate::emitter::{
-    DOUBLE, end_on, floored, is_behind, lambertian_power, largest, narrow, per_solid_angle, positive,
+    self, DOUBLE, end_on, floored, is_behind, lambertian_power, largest, narrow, per_solid_angle, positive,
     radiance, toward, wide,
 };
 use crate::{Light, LightBounds, LightSample, LitPoint};
@@ -227,17 +227,12 @@ impl Light for MeshLight {
 
     #[inline]
     fn emitted(&self, _part: u32, at: &Surface, wo: Vec3A) -> Spectrum {
-        if self.two_sided || at.ng.dot(wo) > 0.0 {
-            radiance(&self.radiance, &TexPoint::of(at))
-        } else {
-            Spectrum::BLACK
-        }
+        emitter::emitted(&self.radiance, self.two_sided, at, wo)
     }
 
     fn needs(&self) -> Needs {
-        let mut needs = Needs::LIGHTS | Needs::AREA_LIGHTS;
+        let mut needs = emitter::needs(&self.radiance);
         needs.set(Needs::MANY_LIGHTS, self.parts.len() > 1);
-        needs.set(Needs::TEXTURES, !self.radiance.is_constant());
         needs
     }
 

@@ -6,7 +6,7 @@ use etendue_geometry::{Shape, ShapeHit, ShapeSample, Surface, return_error};
 use etendue_texture::{Tex, TexPoint, Texture};
 
 use crate::emitter::{
-    floored, is_behind, lambertian_power, per_solid_angle, positive, radiance, toward, wide,
+    self, floored, is_behind, lambertian_power, per_solid_angle, positive, radiance, toward, wide,
 };
 use crate::{Light, LightBounds, LightSample, LitPoint};
 
@@ -160,17 +160,11 @@ impl Light for ShapeLight {
     }
 
     fn emitted(&self, _part: u32, at: &Surface, wo: Vec3A) -> Spectrum {
-        if self.two_sided || at.ng.dot(wo) > 0.0 {
-            radiance(&self.radiance, &TexPoint::of(at))
-        } else {
-            Spectrum::BLACK
-        }
+        emitter::emitted(&self.radiance, self.two_sided, at, wo)
     }
 
     fn needs(&self) -> Needs {
-        let mut needs = Needs::LIGHTS | Needs::AREA_LIGHTS;
-        needs.set(Needs::TEXTURES, !self.radiance.is_constant());
-        needs
+        emitter::needs(&self.radiance)
     }
 
     fn fingerprint(&self, f: &mut Fingerprint) {

@@ -7,7 +7,7 @@ use etendue_sampling::warp;
 use etendue_texture::{Tex, TexPoint, Texture};
 
 use crate::emitter::{
-    end_on, floored, is_behind, lambertian_power, largest, narrow, positive, radiance, wide,
+    self, end_on, floored, is_behind, lambertian_power, largest, narrow, positive, radiance, wide,
 };
 use crate::{Light, LightBounds, LightSample, LitPoint, Sides};
 
@@ -151,17 +151,11 @@ impl Light for SphereLight {
 
     #[inline]
     fn emitted(&self, _part: u32, at: &Surface, wo: Vec3A) -> Spectrum {
-        if self.two_sided || at.ng.dot(wo) > 0.0 {
-            radiance(&self.radiance, &TexPoint::of(at))
-        } else {
-            Spectrum::BLACK
-        }
+        emitter::emitted(&self.radiance, self.two_sided, at, wo)
     }
 
     fn needs(&self) -> Needs {
-        let mut needs = Needs::LIGHTS | Needs::AREA_LIGHTS;
-        needs.set(Needs::TEXTURES, !self.radiance.is_constant());
-        needs
+        emitter::needs(&self.radiance)
     }
 
     fn fingerprint(&self, f: &mut Fingerprint) {

@@ -174,7 +174,10 @@ impl SceneBuilder {
     }
 
     /// Uses another ray-query structure than ours.
-    pub fn accel_with(&mut self, make: impl FnOnce(&World) -> Result<Box<dyn Accel>, BuildError> + Send + 'static) {
+    pub fn accel_with(
+        &mut self,
+        make: impl FnOnce(&World) -> Result<Box<dyn Accel>, BuildError> + Send + 'static,
+    ) {
         self.accel = Some(Box::new(make));
     }
 
@@ -195,7 +198,8 @@ impl SceneBuilder {
     /// A box around everything bounded that has been placed so far.
     pub fn bounds(&self) -> Aabb {
         let of = |g: u32| self.geometries.get(g as usize).map_or(Aabb::EMPTY, Geometry::bounds);
-        let placed = |i: &Instance| i.geoms.iter().fold(Aabb::EMPTY, |b, &g| b.union(i.to_world.aabb(&of(g))));
+        let placed =
+            |i: &Instance| i.geoms.iter().fold(Aabb::EMPTY, |b, &g| b.union(i.to_world.aabb(&of(g))));
         let boxes = self.direct.iter().map(|&g| of(g)).chain(self.instances.iter().map(placed));
         boxes.filter(Aabb::is_finite).fold(Aabb::EMPTY, Aabb::union)
     }

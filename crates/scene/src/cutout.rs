@@ -23,7 +23,8 @@ impl HitFilter for CutoutFilter<'_> {
         if !self.cut.get(hit.geom as usize).is_some_and(|&cut| cut) {
             return true;
         }
-        let material = self.geom_materials.get(hit.geom as usize).and_then(|&m| self.materials.get(m as usize));
+        let material =
+            self.geom_materials.get(hit.geom as usize).and_then(|&m| self.materials.get(m as usize));
         let Some(material) = material else { return true };
         let fetches = Cell::new(0);
         let a = self.world.alpha_attributes(ray, hit);

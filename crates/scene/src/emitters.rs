@@ -50,14 +50,13 @@ impl Emitters {
 
 /// Turns emitting surfaces into lights and drops lights that emit nothing.
 pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emitters, SceneError> {
-    let mut out =
-        Emitters {
-            lights: Vec::new(),
-            infinite: Vec::new(),
-            found_by_rays: Vec::new(),
-            direct: Vec::new(),
-            instanced: Vec::new(),
-        };
+    let mut out = Emitters {
+        lights: Vec::new(),
+        infinite: Vec::new(),
+        found_by_rays: Vec::new(),
+        direct: Vec::new(),
+        instanced: Vec::new(),
+    };
     for (geom, emission) in b.emission.iter().enumerate() {
         let Some(e) = emission else { continue };
         let (mean, max) = (e.radiance.mean(), e.radiance.max());
@@ -138,7 +137,9 @@ fn light_of(
     let by_area = |shape: Arc<dyn Shape>| -> Result<Arc<dyn Light>, SceneError> {
         let drawn = shape.sample(etendue_core::Vec2::splat(0.5));
         if !(shape.area() > 0.0) || drawn.is_none() {
-            return Err(cannot("the shape gives no area or no samples; implement Shape::area and Shape::sample"));
+            return Err(cannot(
+                "the shape gives no area or no samples; implement Shape::area and Shape::sample",
+            ));
         }
         Ok(Arc::new(ShapeLight::new(shape, to_world, radiance.clone(), two_sided)))
     };
