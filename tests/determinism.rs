@@ -95,3 +95,30 @@ fn auxiliary_planes_do_not_change_the_picture() {
     assert_eq!(film.alpha(middle), Some(1.0));
     assert_eq!(plain.depth(middle), None, "what is not asked for is not there");
 }
+
+/// Time runs by itself: one second per look.
+#[derive(Default)]
+struct Ticking(std::sync::atomic::AtomicU64);
+
+impl etendue::core::Clock for Ticking {
+    fn seconds(&self) -> f64 {
+        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed) as f64
+    }
+}
+
+#[test]
+fn a_time_budget_ends_at_a_whole_pass() {
+    let (scene, camera) = cornell(16);
+    let sampler = Sobol::new(5, 1024);
+    let clock = Ticking::default();
+    let mut film = Film::new(camera.resolution(), 1).unwrap();
+    let o = RenderOptions { clock: Some(&clock), seconds: Some(3.5), ..options() };
+    let report = render(&scene, &camera, &PathTracer::default(), sampler, &mut film, &o).unwrap();
+    // Passes of 1, 2, 4 and 4 samples end at 1, 2, 3 and 4 seconds.
+    assert_eq!((report.complete.clone(), report.ended), (0..11, etendue::integrator::Ended::Time));
+    let same = film_of(&scene, &camera, sampler, &RenderOptions { samples: Some(report.complete), ..options() });
+    assert!(film == same);
+    let o = RenderOptions { seconds: Some(1.0), ..options() };
+    let error = render(&scene, &camera, &PathTracer::default(), sampler, &mut film, &o).unwrap_err();
+    assert!(error.to_string().contains("clock"), "{error}");
+}
