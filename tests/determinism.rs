@@ -116,7 +116,8 @@ fn a_time_budget_ends_at_a_whole_pass() {
     let report = render(&scene, &camera, &PathTracer::default(), sampler, &mut film, &o).unwrap();
     // Passes of 1, 2, 4 and 4 samples end at 1, 2, 3 and 4 seconds.
     assert_eq!((report.complete.clone(), report.ended), (0..11, etendue::integrator::Ended::Time));
-    let same = film_of(&scene, &camera, sampler, &RenderOptions { samples: Some(report.complete), ..options() });
+    let same =
+        film_of(&scene, &camera, sampler, &RenderOptions { samples: Some(report.complete), ..options() });
     assert!(film == same);
     let o = RenderOptions { seconds: Some(1.0), ..options() };
     let error = render(&scene, &camera, &PathTracer::default(), sampler, &mut film, &o).unwrap_err();

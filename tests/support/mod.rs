@@ -1,6 +1,7 @@
 //! What several test files need.
-#![allow(dead_code)]
+#![allow(dead_code, unreachable_pub)]
 
+use etendue::core::glam::DVec3;
 use etendue::prelude::*;
 use etendue_testkit::stats::{MeanTest, mean_test};
 
@@ -64,4 +65,24 @@ pub fn cornell(size: u32) -> (Scene, Perspective) {
     let p = etendue::scene::presets::cornell_box();
     let camera = Perspective::look_at(p.eye, p.target, Vec3A::Y, p.vertical_fov_deg, UVec2::splat(size));
     (p.builder.build().expect("the preset builds"), camera.expect("the preset's view"))
+}
+
+/// Every way of finding direct light that finds all of it.
+pub const WAYS: [DirectLight; 3] = [DirectLight::Light, DirectLight::Bsdf, DirectLight::MisPower];
+
+/// The default integrator with a way of finding direct light.
+pub fn path(direct: DirectLight) -> PathTracer {
+    PathTracer { direct, ..PathTracer::default() }
+}
+
+/// Something that shines with radiance 1 and reflects nothing.
+pub fn lamp(b: &mut SceneBuilder, shape: impl Into<Geometry>) {
+    let black = b.material(etendue::material::Absorber);
+    let id = b.add(shape, black);
+    b.emit(id, Emission::new(Spectrum::ONE));
+}
+
+/// Exact.
+pub fn wide(v: Vec3A) -> DVec3 {
+    DVec3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
 }

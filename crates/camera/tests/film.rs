@@ -46,6 +46,7 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
 fn apply(film: &mut Film, e: &Event) {
     film.add(e.pixel, e.replicate, e.l);
     film.add_first_hit(e.pixel, e.index, &first_hit(e.index));
+    film.add_alpha(e.pixel, 0.5);
 }
 
 proptest! {
@@ -77,11 +78,12 @@ proptest! {
 
         let mut tiled = new();
         for rect in TileRect::split(SIZE, 1 + shuffle as u32 % 4) {
-            let mut tile = Tile::new(rect, 3, Planes::ALL);
+            let mut tile = Tile::try_new(rect, 3, Planes::ALL).unwrap();
             for e in &events {
                 // A tile takes what is its own and refuses the rest.
                 tile.add(e.pixel, e.replicate, e.l);
                 tile.add_first_hit(e.pixel, e.index, &first_hit(e.index));
+                tile.add_alpha(e.pixel, 0.5);
             }
             tiled.absorb(&tile);
         }
@@ -142,6 +144,7 @@ fn refused_samples_count_as_black() {
     for outside in [UVec2::new(4, 0), UVec2::new(0, 3), UVec2::MAX] {
         assert!(!film.add(outside, 0, Spectrum::ONE));
         film.add_first_hit(outside, 0, &first_hit(0));
+        film.add_alpha(outside, 1.0);
         assert_eq!(
             (film.samples(outside), film.mean(outside), film.standard_error(outside)),
             (0, Spectrum::BLACK, None)
@@ -154,19 +157,22 @@ fn refused_samples_count_as_black() {
 #[test]
 fn tiles_refuse_what_lies_beside_them() {
     let rect = TileRect { lo: UVec2::new(2, 1), hi: UVec2::new(4, 3) };
-    let mut tile = Tile::new(rect, 1, Planes::ALL);
+    let mut tile = Tile::try_new(rect, 1, Planes::ALL).unwrap();
     for beside in [(1, 1), (4, 1), (2, 0), (2, 3), (0, 2), (u32::MAX, 1), (2, u32::MAX)] {
         let beside = UVec2::from(beside);
         assert!(!tile.add(beside, 0, Spectrum::ONE), "{beside}");
         tile.add_first_hit(beside, 0, &first_hit(0));
+        tile.add_alpha(beside, 1.0);
     }
-    assert_eq!(tile, Tile::new(rect, 1, Planes::ALL));
+    assert_eq!(tile, Tile::try_new(rect, 1, Planes::ALL).unwrap());
     assert!(tile.add(UVec2::new(3, 2), 0, Spectrum::ONE));
-    let mut inverted = Tile::new(TileRect { lo: UVec2::new(4, 4), hi: UVec2::ZERO }, 1, Planes::ALL);
+    let mut inverted =
+        Tile::try_new(TileRect { lo: UVec2::new(4, 4), hi: UVec2::ZERO }, 1, Planes::ALL).unwrap();
     assert!(!inverted.add(UVec2::new(4, 4), 0, Spectrum::ONE));
     // A tile over the border fills what of it is inside.
     let mut film = Film::new(SIZE, 1).unwrap();
-    let mut over = Tile::new(TileRect { lo: UVec2::new(3, 2), hi: UVec2::new(6, 5) }, 1, Planes::default());
+    let mut over =
+        Tile::try_new(TileRect { lo: UVec2::new(3, 2), hi: UVec2::new(6, 5) }, 1, Planes::default()).unwrap();
     for p in over.rect().iter() {
         over.add(p, 0, Spectrum::ONE);
     }
@@ -300,8 +306,10 @@ fn planes_hold_means_and_the_first_ids() {
     for index in [5, 2, 9] {
         film.add(pixel, 0, Spectrum::ONE);
         film.add_first_hit(pixel, index, &first_hit(index));
+        film.add_alpha(pixel, 1.0);
     }
     film.add(pixel, 0, Spectrum::ONE);
+    film.add_alpha(pixel, 0.0);
     assert_eq!(film.alpha(pixel), Some(0.75));
     assert_eq!(film.ids(pixel).unwrap().geom, 2, "of the lowest index, not of the first to come");
     // Depth over the samples that hit; albedo and normal over all of them.
@@ -331,7 +339,8 @@ fn the_digest_sees_everything() {
         film
     };
     assert_eq!(base().digest(), base().digest());
-    let changes: [&dyn Fn(&mut Film); 6] = [
+    let changes: [&dyn Fn(&mut Film); 7] = [
+        &|f| f.add_alpha(UVec2::ZERO, 1.0),
         &|f| assert!(f.add(UVec2::ONE, 0, Spectrum::BLACK)),
         &|f| assert!(f.add(UVec2::ONE, 1, Spectrum::BLACK)),
         &|f| assert!(f.add(UVec2::ZERO, 0, Spectrum::gray(1e-19))),

@@ -5,7 +5,6 @@ use etendue_geometry::Surface;
 use etendue_light::LightId;
 
 /// A path reached a surface.
-#[non_exhaustive]
 pub struct Vertex<'a> {
     /// Scattering events before it.
     pub depth: u32,
@@ -36,7 +35,6 @@ pub enum ContributionKind {
 }
 
 /// Light added to a sample.
-#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contribution {
     /// Scattering events on the way.

@@ -28,7 +28,24 @@ enum Damage {
     Repeat(usize),
     Swap(usize),
     Put(&'static str),
+    /// The word or number there becomes another.
+    Word(&'static str),
 }
+
+const WORDS: [&str; 12] = [
+    "-9",
+    "-3",
+    "0",
+    "9",
+    "-9223372036854775808",
+    "9223372036854775807",
+    "99999999999999999999",
+    "nan",
+    "-inf",
+    "1e39",
+    "x",
+    "",
+];
 
 const PUT: [&str; 16] = [
     "99999999999999999999",
@@ -51,14 +68,15 @@ const PUT: [&str; 16] = [
 
 fn damage() -> impl Strategy<Value = Vec<(prop::sample::Index, Damage)>> {
     let one = prop_oneof![
-        any::<u8>().prop_map(Damage::Set),
-        any::<u8>().prop_map(Damage::Insert),
-        (1usize..40).prop_map(Damage::Remove),
-        (1usize..40).prop_map(Damage::Repeat),
-        (1usize..40).prop_map(Damage::Swap),
-        prop::sample::select(&PUT[..]).prop_map(Damage::Put),
+        1 => any::<u8>().prop_map(Damage::Set),
+        1 => any::<u8>().prop_map(Damage::Insert),
+        1 => (1usize..40).prop_map(Damage::Remove),
+        1 => (1usize..40).prop_map(Damage::Repeat),
+        1 => (1usize..40).prop_map(Damage::Swap),
+        1 => prop::sample::select(&PUT[..]).prop_map(Damage::Put),
+        4 => prop::sample::select(&WORDS[..]).prop_map(Damage::Word),
     ];
-    prop::collection::vec((any::<prop::sample::Index>(), one), 1..12)
+    prop::collection::vec((any::<prop::sample::Index>(), one), 1..6)
 }
 
 fn damaged(bytes: &str, damage: &[(prop::sample::Index, Damage)]) -> Vec<u8> {
@@ -82,6 +100,12 @@ fn damaged(bytes: &str, damage: &[(prop::sample::Index, Damage)]) -> Vec<u8> {
                 out.swap(at, end);
             }
             Damage::Put(text) => drop(out.splice(at..at, text.bytes())),
+            Damage::Word(text) => {
+                let ends = |b: &u8| b.is_ascii_whitespace() || *b == b'/';
+                let start = out[..at].iter().rposition(ends).map_or(0, |i| i + 1);
+                let end = out[at..].iter().position(ends).map_or(out.len(), |i| at + i).max(start);
+                out.splice(start..end, text.bytes());
+            }
         }
     }
     out
@@ -102,7 +126,7 @@ fn load(obj: &[u8], mtl: &[u8]) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, rng_seed: proptest::test_runner::RngSeed::Fixed(7), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 2000, rng_seed: proptest::test_runner::RngSeed::Fixed(7), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn damaged_geometry_never_panics(damage in damage()) {

@@ -19,6 +19,7 @@ fn film(planes: Planes) -> Film {
             let pixel = UVec2::new(x, y);
             film.add(pixel, 0, Spectrum::rgb(x as f32 * 0.1, y as f32 * 0.3, 7.5e4));
             film.add(pixel, 1, Spectrum::rgb(x as f32 * 0.1, y as f32 * 0.3, 1e-5));
+            film.add_alpha(pixel, x as f32 * 0.25);
             if x != 4 {
                 let ids = Ids { inst: u32::MAX, geom: x, prim: y };
                 let hit =
@@ -83,7 +84,11 @@ fn exr_reads_back_with_its_planes_and_notes() {
     let film = film(Planes::ALL);
     let info = ExrInfo {
         bias: vec!["max_depth=3".into(), "clamped".into()],
-        notes: vec![("seed".into(), "17".into()), ("sampler".into(), "sobol".into())],
+        notes: vec![
+            ("seed".into(), "17".into()),
+            ("sampler".into(), "sobol".into()),
+            ("bias".into(), "none".into()),
+        ],
     };
     write_exr(&path, &film, &info).unwrap();
     let image = read_exr(&path);
@@ -121,7 +126,7 @@ fn exr_reads_back_with_its_planes_and_notes() {
     assert_eq!(note("etendue.spp").as_deref(), Some("2"));
     assert_eq!(note("etendue.bias").as_deref(), Some("max_depth=3; clamped"));
     assert_eq!(note("etendue.note.seed").as_deref(), Some("17"));
-    assert_eq!(note("etendue.sampler").as_deref(), Some("sobol"));
+    assert_eq!(note("etendue.note.sampler").as_deref(), Some("sobol"));
     assert_eq!(layer.attributes.software_name.as_ref().map(ToString::to_string).as_deref(), Some("etendue"));
 }
 

@@ -142,7 +142,7 @@ fn two_lights(change: impl FnOnce(&mut SceneBuilder)) -> Scene {
     b.build().unwrap()
 }
 
-/// However the lights are chosen, the mean is the same; a bias of 2.5 % would be five standard errors.
+/// However the lights are chosen, the mean is the same; a bias of 3 % would be five standard errors.
 #[test]
 fn any_choice_of_lights_gives_the_same_light() {
     let down = Ray::new(Vec3A::new(0.1, 0.2, 1.0), Vec3A::NEG_Z);
@@ -168,7 +168,7 @@ fn any_choice_of_lights_gives_the_same_light() {
         for (name, other) in [("stubborn", &stubborn), ("uniform", &uniform)] {
             let test = welch_test(other, &by_power);
             assert!(!test.rejects(1e-6), "{name}, {direct:?}: {test:?}");
-            assert!(5.0 * test.standard_error < 0.025 * test.truth, "{name}, {direct:?}: {test:?}");
+            assert!(5.0 * test.standard_error < 0.03 * test.truth, "{name}, {direct:?}: {test:?}");
         }
     }
 }

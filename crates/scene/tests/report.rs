@@ -183,7 +183,8 @@ fn ids_of_another_builder_are_refused_by_name() {
     b.add(square(0.0), material);
     assert!(matches!(error(b), SceneError::UnknownMaterial { geom: 0, material: 5, count: 0 }));
 
-    let uses: [(&str, &dyn Fn(&mut SceneBuilder)); 4] = [
+    type Use<'a> = (&'a str, &'a dyn Fn(&mut SceneBuilder));
+    let uses: [Use<'_>; 4] = [
         ("geometry", &|b| b.emit(geometry, Emission::new(Spectrum::ONE))),
         ("geometry", &|b| b.visible_to(geometry, 1)),
         ("geometry", &|b| assert_eq!(format!("{:?}", b.group(&[geometry])), "GroupId(0)")),

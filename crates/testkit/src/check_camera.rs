@@ -29,8 +29,9 @@ pub fn check_camera(camera: &dyn Camera, budget: &Budget) -> Outcome {
         // A tenth of the positions lie outside of the picture, where a wide filter may ask.
         let margin = if i % 10 == 0 { 4.0 } else { 0.0 };
         let film = random.pair() * (extent + Vec2::splat(2.0 * margin)) - Vec2::splat(margin);
-        let extreme = |k: usize| EXTREMES[(i / 7 + k) % EXTREMES.len()];
-        let lens = if i % 7 == 0 { Vec2::new(extreme(0), extreme(1)) } else { random.pair() };
+        // Every pair of extremes comes up, the middle and the corners of the lens among them.
+        let extreme = |k: usize| EXTREMES[i / k % EXTREMES.len()];
+        let lens = if i % 7 == 0 { Vec2::new(extreme(7), extreme(35)) } else { random.pair() };
         let draw = Draw { film, lens, time: random.unit() };
         if let Some(s) = camera.ray(draw.film, draw.lens, draw.time) {
             seen += 1;

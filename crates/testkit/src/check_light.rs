@@ -8,6 +8,7 @@ use etendue_sampling::{Moments, warp};
 use crate::budget::{Budget, EXTREMES, Failure, Judge, Outcome, Random};
 use crate::check_bsdf::{fits, unseen};
 use crate::partition::Partition;
+use crate::rounding::steps;
 use crate::stats::p_of_z_beyond;
 
 const SAMPLES: usize = 20_000;
@@ -28,10 +29,11 @@ pub type Seen<'a> = dyn Fn(&Ray) -> Option<Surface> + 'a;
 /// * Directions fit the density (χ² on a fine and a coarse partition that follows the light, however small), whose
 ///   integral is the sampled fraction.
 /// * The irradiance by light sampling is that found by looking around, by quadrature: no part of the light is left out.
-/// * `power` is what leaves through a sphere around the light, or enters the scene, to a tenth.
+/// * `power` is what leaves through a sphere around the light, or enters the scene: no less than nine tenths of it, no
+///   more than twice (half may stay inside).
 ///
 /// Power at effort 1, on 99 of 100 seeds: a density or radiance wrong by 2 % throughout, or by 20 % (rms) over the
-/// light; a power wrong by a quarter. Not seen: a light or part of one so small and far from what is sampled that no
+/// light; a power too small by a quarter. Not seen: a light or part of one so small and far from what is sampled that no
 /// direction of the quadrature meets it.
 ///
 /// # Errors
@@ -75,7 +77,7 @@ struct Probe<'a> {
 }
 
 /// What a ray finds.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Look {
     radiance: Spectrum,
     pdf: f32,
@@ -96,6 +98,24 @@ impl Probe<'_> {
             },
             None => Look { radiance: Spectrum::BLACK, pdf: 0.0 },
         }
+    }
+
+    /// Whether a sample says what a ray along it finds, within what rounding the direction changes: at a limb, and from
+    /// afar, that is much.
+    fn agrees(&self, at: &LitPoint, s: &LightSample, found: &Look) -> bool {
+        let off = |l: &Look| [(l.radiance.mean() - s.li.mean()).abs(), (l.pdf - s.pdf).abs()];
+        let allowed = [2e-3 * s.li.mean(), 2e-3 * s.pdf];
+        let [l, p] = off(found);
+        if l <= allowed[0] && p <= allowed[1] {
+            return true;
+        }
+        let mut moved = [0.0f32; 2];
+        for step in steps() {
+            let near = self.look(at, s.wi + step);
+            moved[0] = moved[0].max((near.radiance.mean() - found.radiance.mean()).abs());
+            moved[1] = moved[1].max((near.pdf - found.pdf).abs());
+        }
+        l <= allowed[0] + 2.0 * moved[0] && p <= allowed[1] + 2.0 * moved[1]
     }
 
     /// What must hold for any sample.
@@ -170,7 +190,8 @@ fn from_point(
         .collect();
     let mut directions = Vec::with_capacity(n);
     let mut sampled = Moments::default();
-    let (mut any, mut disagree, mut own_shadow) = (false, 0, 0);
+    let mut any = false;
+    let (mut disagree, mut own_shadow) = (Odd::default(), Odd::default());
     for _ in 0..n {
         let Some(s) = light.sample(at, part, random.pair()) else {
             sampled.add(0.0);
@@ -186,19 +207,18 @@ fn from_point(
         sampled.add(f64::from(s.li.mean()) * f64::from(cosine(at, s.wi)) / f64::from(s.pdf));
         directions.push(s.wi);
         let found = probe.look(at, s.wi);
-        let close = |a: f32, b: f32| (a - b).abs() <= 2e-3 * a.max(b);
-        disagree += usize::from(!close(found.radiance.mean(), s.li.mean()) || !close(found.pdf, s.pdf));
+        let agrees = probe.agrees(at, &s, &found);
+        disagree.note(!agrees, &s, || format!("a ray finds {found:?}"));
         let segment = Segment { from: at.origin(), d: s.wi, to: s.end, time: at.time };
-        own_shadow += usize::from(segment.ray().is_none_or(|r| (probe.seen)(&r).is_some()));
+        let meets = segment.ray().is_none_or(|r| (probe.seen)(&r).is_some());
+        own_shadow.note(meets, &s, || format!("{:?}", segment.ray()));
     }
-    // At the outline a ray may just miss, or meet another side of the light first; textures have edges.
-    let few = 2e-3 * n as f64 + 1.0;
-    judge.require(disagree as f64 <= few, "agreement", || {
-        format!("{disagree} of {n} samples disagree in radiance or density with what a ray along them finds")
-    })?;
-    judge.require(own_shadow as f64 <= few, "own shadow", || {
-        format!("the shadow rays of {own_shadow} of {n} samples meet the light itself")
-    })?;
+    disagree.judge(
+        "agreement",
+        "samples disagree in radiance or density with what a ray along them finds",
+        judge,
+    )?;
+    own_shadow.judge("own shadow", "samples whose shadow ray meets the light itself", judge)?;
     if light.is_delta() {
         return Ok(any);
     }
@@ -215,6 +235,44 @@ fn from_point(
         format!("{mean} ± {} by sampling the light, {around:?} by looking around", sampled.standard_error())
     })?;
     Ok(any)
+}
+
+/// Samples that are not as they should be, by what they carry.
+#[derive(Default)]
+struct Odd {
+    all: f64,
+    odd: f64,
+    largest: f64,
+    count: usize,
+    first: String,
+}
+
+impl Odd {
+    fn note(&mut self, odd: bool, s: &LightSample, how: impl FnOnce() -> String) {
+        let carries = f64::from(s.li.mean()) / f64::from(s.pdf);
+        self.all += carries;
+        if odd {
+            if self.count == 0 {
+                self.first = format!("{s:?}: {}", how());
+            }
+            self.odd += carries;
+            self.largest = self.largest.max(carries);
+            self.count += 1;
+        }
+    }
+
+    /// At an outline a ray may just miss, a limb is met a little off, and textures have edges: all of that carries
+    /// little.
+    fn judge(&self, test: &'static str, what: &str, judge: &mut Judge) -> Result<(), Failure> {
+        judge.require(self.odd - self.largest <= 2e-3 * self.all, test, || {
+            format!(
+                "{} {what}; they carry {:.1e} of the light; {}",
+                self.count,
+                self.odd / self.all,
+                self.first
+            )
+        })
+    }
 }
 
 /// Power against what passes through a sphere around the light, or enters one of radius 1.
@@ -242,6 +300,9 @@ fn whole_power(
     }
     let area = 4.0 * PI * f64::from(radius) * f64::from(radius);
     let (mean, se) = (flux.mean() * area, flux.standard_error() * area);
-    let p = p_of_z_beyond(mean - f64::from(claimed.mean()), 0.1 * mean, se);
-    judge.p_value(p, "power", || format!("{} W claimed, {mean} ± {se} W found", claimed.mean()))
+    // A closed light that shines both ways keeps half of its power inside.
+    let claimed = f64::from(claimed.mean());
+    let nearest = claimed.clamp(0.9 * mean, 2.2 * mean);
+    let p = if mean > 0.0 { p_of_z_beyond(claimed - nearest, 0.0, se) } else { 1.0 };
+    judge.p_value(p, "power", || format!("{claimed} W claimed, {mean} ± {se} W found"))
 }

@@ -153,7 +153,7 @@ fn uniform<S: Sampler>(
         square(points, judge, "pair", || format!("{dim:?} does not fill the square over streams"))?;
     }
     for (a, b) in APART {
-        let points = (0..n).map(|i| start(i)).map(|u| Vec2::new(u.get_1d(a), u.get_1d(b)));
+        let points = (0..n).map(&start).map(|u| Vec2::new(u.get_1d(a), u.get_1d(b)));
         square(points, judge, "apart", || format!("{a:?} and {b:?} know of each other"))?;
     }
     Ok(())
@@ -191,10 +191,11 @@ fn independent<S: Sampler>(
     let n = budget.samples(STREAMS);
     let dim = Dim::bounce(0, Slot::Light);
     let pair = |a: S, b: S| Vec2::new(a.get_1d(dim), b.get_1d(dim));
-    let points = (0..n as u64).map(|i| pair(s.start(2 * i, 3), s.start(2 * i + 1, 3)));
+    // Steps of three, so that pairs begin at even and at odd numbers.
+    let points = (0..n as u64).map(|i| pair(s.start(3 * i, 3), s.start(3 * i + 1, 3)));
     square(points, judge, "streams", || "neighbouring streams know of each other".into())?;
     let points = (0..n as u64).map(|i| {
-        let seed = seed.wrapping_mul(77).wrapping_add(2 * i);
+        let seed = seed.wrapping_mul(77).wrapping_add(3 * i);
         pair(make(seed).start(5, 3), make(seed.wrapping_add(1)).start(5, 3))
     });
     square(points, judge, "seeds", || "neighbouring seeds know of each other".into())?;

@@ -79,7 +79,7 @@ impl Cell {
         let length = (1.0 + u * u + v * v).sqrt();
         let axis = usize::from(self.face / 2);
         let mut d = [0.0; 3];
-        d[axis] = if self.face % 2 == 0 { 1.0 } else { -1.0 } / length;
+        d[axis] = if self.face.is_multiple_of(2) { 1.0 } else { -1.0 } / length;
         d[(axis + 1) % 3] = u / length;
         d[(axis + 2) % 3] = v / length;
         Vec3A::from(d.map(|x| x as f32))
@@ -98,9 +98,9 @@ impl Cell {
                 let q = 1.0 + u * u + v * v;
                 let weight = wx * wy * self.size * self.size / (q * q.sqrt());
                 out.solid_angle += weight;
-                for k in 0..2 {
-                    out.integral[k] += weight * value[k];
-                    out.peak[k] = out.peak[k].max(value[k]);
+                for ((integral, peak), v) in out.integral.iter_mut().zip(&mut out.peak).zip(value) {
+                    *integral += weight * v;
+                    *peak = peak.max(v);
                 }
             }
         }

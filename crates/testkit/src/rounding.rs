@@ -3,6 +3,11 @@ use etendue_core::{Spectrum, Vec3A};
 /// Steps of a few units in the last place of a unit vector's components.
 const STEP: f32 = 1.0 / 4_194_304.0;
 
+/// Moves of a direction by a few units in its last place.
+pub(crate) fn steps() -> impl Iterator<Item = Vec3A> {
+    [Vec3A::X, Vec3A::Y, Vec3A::Z].into_iter().flat_map(|a| [a * STEP, a * -STEP])
+}
+
 /// Whether `claimed` is `f(wo, wi)` within a relative tolerance, or within what rounding the directions changes `f` by.
 ///
 /// A narrow lobe, or one seen edge-on, magnifies the last digits of a direction; how much is measured, by moving the
@@ -22,7 +27,7 @@ pub(crate) fn agree(
         return true;
     }
     let mut moved = Spectrum::BLACK;
-    for step in [Vec3A::X, Vec3A::Y, Vec3A::Z].into_iter().flat_map(|a| [a * STEP, a * -STEP]) {
+    for step in steps() {
         for other in [f(wo + step, wi), f(wo, wi + step)] {
             let d = (other - value).map(f32::abs);
             moved = Spectrum::rgb(moved.r().max(d.r()), moved.g().max(d.g()), moved.b().max(d.b()));

@@ -26,12 +26,10 @@ fn cases() -> Vec<Case<'static>> {
     let correlated = Masking::HeightCorrelated;
     let shapes = [
         (1e-3, 1e-3, correlated),
-        (1e-3, 1e-3, separable),
         (1e-2, 1e-2, correlated),
         (0.1, 0.1, separable),
         (0.5, 0.5, correlated),
         (1.0, 1.0, separable),
-        (1.0, 1.0, correlated),
         (0.02, 0.6, correlated),
     ];
     for (x, y, masking) in shapes {
@@ -57,5 +55,5 @@ fn few_seeds() {
 #[test]
 #[ignore = "minutes"]
 fn hundred_seeds() {
-    accept(&cases(), MANY, std::env::var("E").unwrap().parse().unwrap());
+    accept(&cases(), MANY, 0.05);
 }

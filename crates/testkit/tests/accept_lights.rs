@@ -7,8 +7,8 @@ use std::sync::Arc;
 use etendue_core::{Ray, Spectrum, Transform, Vec2, Vec3A, vector};
 use etendue_geometry::{Geometry, Parallelogram, Shape, Sphere, Surface, presets};
 use etendue_light::{
-    ConstantEnvironment, ImageEnvironment, Light, LightId, LightPicker, LitPoint, MeshLight, ParallelogramLight,
-    PointLight, PowerPicker, ShapeLight, Sides, SinglePicker, SphereLight, UniformPicker,
+    ConstantEnvironment, ImageEnvironment, Light, LightId, LightPicker, LitPoint, MeshLight,
+    ParallelogramLight, PointLight, PowerPicker, ShapeLight, Sides, SinglePicker, SphereLight, UniformPicker,
 };
 use etendue_scene::{Emission, Scene, SceneBuilder};
 use etendue_testkit::{check_light, check_picker, lit_point};
@@ -79,7 +79,8 @@ fn of_scene(name: &str, build: impl Fn(&mut SceneBuilder), part: u32) -> Case<'s
 
 fn lights() -> Vec<Case<'static>> {
     let square = Parallelogram::new(Vec3A::new(-0.5, 0.0, -0.4), Vec3A::Z, Vec3A::X * 0.7).expect("a square");
-    let skew = Parallelogram::new(Vec3A::new(-0.3, 0.1, -0.5), Vec3A::X, Vec3A::new(0.4, 0.2, 0.8)).expect("an area");
+    let skew = Parallelogram::new(Vec3A::new(-0.3, 0.1, -0.5), Vec3A::X, Vec3A::new(0.4, 0.2, 0.8))
+        .expect("an area");
     let ball = Sphere::new(Vec3A::new(0.1, 0.2, -0.1), 0.5).expect("a ball");
     let around = Sphere::new(Vec3A::new(0.1, 0.2, -0.1), 300.0).expect("a ball");
     let white = Tex::gray(3.0);
@@ -98,7 +99,11 @@ fn lights() -> Vec<Case<'static>> {
         of_shape("parallelogram", two(ParallelogramLight::new(skew, white.clone())), skew),
         of_shape("sphere", SphereLight::new(ball, white.clone()), ball),
         of_shape("textured sphere", SphereLight::new(ball, texture()), ball),
-        of_shape("sphere from inside", SphereLight { two_sided: true, ..SphereLight::new(around, white.clone()) }, around),
+        of_shape(
+            "sphere from inside",
+            SphereLight { two_sided: true, ..SphereLight::new(around, white.clone()) },
+            around,
+        ),
         of_shape("shape", ShapeLight::new(Arc::new(skew), None, white.clone(), true), skew),
         of_shape("round shape", ShapeLight::new(Arc::new(ball), None, texture(), false), ball),
     ];

@@ -24,7 +24,7 @@ const SAMPLES: usize = 30_000;
 /// weighted samples lie as densely everywhere as the lines' crossings, which are uniform over the area (χ²).
 ///
 /// Power at effort 1, on 99 of 100 seeds: an area wrong by 5 % for a shape that fills a third of its bounds' silhouette,
-/// a sampling density wrong by 20 % (rms); a normal off by 0.1 on 2 % of the surface. Not seen: the area and samples
+/// a sampling density wrong by 20 % (rms); a normal off by 0.1 on 3 % of the surface. Not seen: the area and samples
 /// of an unbounded shape; details smaller than a ten-thousandth of the shape.
 ///
 /// # Errors

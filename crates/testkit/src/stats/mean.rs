@@ -34,14 +34,22 @@ impl MeanTest {
 
 /// Largest share of the sum of magnitudes that one of many samples may carry.
 const LARGEST_SHARE: f64 = 0.05;
+/// Largest share among a few; one of two or three may well carry most.
+const LARGEST_SHARE_OF_FEW: f64 = 0.5;
+/// Fewer than this are too few to say that one of them dominates.
+const FEW: usize = 8;
 /// From this many samples on the normal law stands in for Student's, and one sample must not dominate.
 const MANY: usize = 200;
 
-/// Whether one of many samples carries so much that their variance says nothing.
+/// Whether one sample carries so much that their variance says nothing.
 fn dominated(samples: &[f64]) -> bool {
     let magnitudes = samples.iter().map(|x| x.abs());
     let (largest, total) = magnitudes.fold((0.0f64, 0.0), |(largest, total), x| (largest.max(x), total + x));
-    samples.len() >= MANY && largest > LARGEST_SHARE * total
+    match samples.len() {
+        n if n >= MANY => largest > LARGEST_SHARE * total,
+        n if n >= FEW => largest > LARGEST_SHARE_OF_FEW * total,
+        _ => false,
+    }
 }
 
 fn moments(samples: &[f64]) -> Moments {

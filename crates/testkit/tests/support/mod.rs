@@ -1,5 +1,6 @@
 //! Runs a suite over seeds and counts the verdicts.
 #![allow(dead_code, unreachable_pub)]
+#![allow(clippy::disallowed_methods)] // Tests may read the clock; they do not run in wasm.
 
 use etendue_testkit::{Budget, Outcome};
 
