@@ -95,7 +95,7 @@ fn a_shape_that_cannot_be_sampled_cannot_emit() {
     let m = b.material(Absorber);
     let shape = b.add(Geometry::open(AreaOnly(lamp())), m);
     b.emit(shape, Emission::new(Spectrum::ONE));
-    let error = b.build().err().expect("refused").to_string();
+    let error = b.build().expect_err("refused").to_string();
     assert!(error.contains("Shape::sample"), "{error}");
 }
 

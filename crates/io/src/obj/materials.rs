@@ -103,7 +103,8 @@ pub(crate) struct Made<'a> {
     mtl: &'a [tobj::Material],
     resolver: &'a dyn Resolver,
     limits: &'a Limits,
-    ids: HashMap<Option<usize>, MaterialId>,
+    /// By number in the file, and whether the vertices bring colours.
+    ids: HashMap<(Option<usize>, bool), MaterialId>,
     images: HashMap<(String, Encoding), Option<Arc<ImageTexture>>>,
     image_bytes: u64,
     pub(crate) warnings: Vec<String>,
@@ -119,17 +120,26 @@ impl<'a> Made<'a> {
         self.ids.len()
     }
 
-    /// The material of a model, made on first use. Index `None` or out of range is a plain gray.
-    pub(crate) fn material(&mut self, index: Option<usize>, builder: &mut SceneBuilder) -> MaterialId {
+    /// The material of a model, made on first use. Index `None` or out of range is a plain gray; `colored` vertices
+    /// multiply a diffuse colour, and stand alone where there is no material.
+    pub(crate) fn material(
+        &mut self,
+        index: Option<usize>,
+        colored: bool,
+        builder: &mut SceneBuilder,
+    ) -> MaterialId {
         let index = index.filter(|&i| i < self.mtl.len());
-        if let Some(&id) = self.ids.get(&index) {
+        if let Some(&id) = self.ids.get(&(index, colored)) {
             return id;
         }
         let id = match index.and_then(|i| self.mtl.get(i)) {
-            Some(m) => self.make(m, builder),
-            None => builder.material(Diffuse::new(Spectrum::gray(0.6))),
+            Some(m) => self.make(m, colored, builder),
+            None => {
+                let gray = Spectrum::gray(if colored { 1.0 } else { 0.6 });
+                builder.material(Diffuse { vertex_color: colored, ..Diffuse::new(gray) })
+            }
         };
-        self.ids.insert(index, id);
+        self.ids.insert((index, colored), id);
         id
     }
 
@@ -140,7 +150,7 @@ impl<'a> Made<'a> {
         true
     }
 
-    fn make(&mut self, m: &tobj::Material, builder: &mut SceneBuilder) -> MaterialId {
+    fn make(&mut self, m: &tobj::Material, colored: bool, builder: &mut SceneBuilder) -> MaterialId {
         let name = &m.name;
         let unread = unread_textures(m);
         if !unread.is_empty() {
@@ -173,7 +183,7 @@ impl<'a> Made<'a> {
             Some(image) => Tex::image(image),
             None => Tex::from(kd),
         };
-        let base = Diffuse::new(albedo);
+        let base = Diffuse { vertex_color: colored, ..Diffuse::new(albedo) };
         if emissive(m).is_some() {
             if dissolve < 1.0 || m.dissolve_texture.is_some() {
                 self.warnings
@@ -289,7 +299,8 @@ pub(crate) fn add_geometry(
     made: &mut Made<'_>,
     builder: &mut SceneBuilder,
 ) -> bool {
-    let material = made.material(index, builder);
+    let colored = matches!(&geometry, Geometry::Mesh(mesh) if !mesh.colors().is_empty());
+    let material = made.material(index, colored, builder);
     let geom = builder.add(geometry, material);
     made.emit(index, geom, builder)
 }
