@@ -152,14 +152,14 @@ fn lamp() -> Parallelogram {
 
 fn lamp_check(defect: LightDefect, area: bool, b: &Budget) -> Outcome {
     let (q, radiance) = (lamp(), Spectrum::rgb(1.0, 2.0, 3.0));
-    let by_area = area.then(|| q.clone());
-    let light = WrongLight { light: ParallelogramLight::new(q.clone(), radiance), by_area, defect };
+    let by_area = area.then(|| q);
+    let light = WrongLight { light: ParallelogramLight::new(q, radiance), by_area, defect };
     check_light(&light, 0, &points(), &|ray: &Ray| found(&q, ray), b)
 }
 
 fn ball_check(defect: LightDefect, b: &Budget) -> Outcome {
     let ball = Sphere::new(Vec3A::new(0.0, 0.1, 0.0), 0.4).expect("has a radius");
-    let light = SphereLight::new(ball.clone(), Spectrum::ONE);
+    let light = SphereLight::new(ball, Spectrum::ONE);
     let light = WrongLight { light, by_area: None, defect };
     check_light(&light, 0, &points(), &|ray: &Ray| found(&ball, ray), b)
 }
