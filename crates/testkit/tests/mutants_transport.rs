@@ -152,7 +152,7 @@ fn lamp() -> Parallelogram {
 
 fn lamp_check(defect: LightDefect, area: bool, b: &Budget) -> Outcome {
     let (q, radiance) = (lamp(), Spectrum::rgb(1.0, 2.0, 3.0));
-    let by_area = area.then(|| q);
+    let by_area = area.then_some(q);
     let light = WrongLight { light: ParallelogramLight::new(q, radiance), by_area, defect };
     check_light(&light, 0, &points(), &|ray: &Ray| found(&q, ray), b)
 }
