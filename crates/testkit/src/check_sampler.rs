@@ -52,7 +52,7 @@ const APART: [(Dim, Dim); 6] = [
 ///   than that of independent numbers.
 ///
 /// Power at effort 1, on 99 of 100 seeds: a distribution function off by 0.04, a correlation of 0.07, a bias of 0.3 %,
-/// an error a third larger. Not seen: correlation between draws that are not among those tested; a number of
+/// a mean square error half larger. Not seen: correlation between draws that are not among those tested; a number of
 /// `get_2d` that is 1 less often than one draw in a million.
 ///
 /// # Errors

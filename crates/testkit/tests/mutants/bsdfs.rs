@@ -1,0 +1,178 @@
+use etendue_bsdf::{
+    Bsdf, BsdfAt, BsdfSample, Conductor, Ggx, Lambert, Lobes, Mirror, Mode, RoughDielectric, SmoothDielectric,
+};
+use etendue_core::{Spectrum, Vec2, Vec3A, vector};
+use etendue_testkit::check_bsdf;
+
+use crate::Case;
+
+/// What is wrong.
+#[derive(Clone, Copy, PartialEq)]
+enum Wrong {
+    /// The density throughout, the weight with it.
+    Pdf(f32),
+    /// The density throughout, but not the weight.
+    PdfButNotWeight(f32),
+    /// `pdf` alone.
+    PdfCall(f32),
+    Weight(f32),
+    /// `eval` alone.
+    Eval(f32),
+    /// f instead of f·cos, in everything.
+    NoCosine,
+    /// Radiance and importance exchanged.
+    ModesSwapped,
+    /// Radiance is not scaled by eta².
+    NoEtaSquared,
+    /// eta the other way round.
+    EtaInverted,
+    /// The direction drawn with `u.x` to this power, everything said of it as if it had been drawn rightly.
+    Skewed(f32),
+    /// The direction moved by this much after drawing.
+    Moved(f32),
+    /// A tenth of the attempts fails more than the density says.
+    Fails,
+    /// Light to the far side that is never drawn.
+    Leak,
+    /// More when seen from +x.
+    Lopsided,
+    /// Says it has no lobe of its kind.
+    Undeclared,
+    /// `eval_pdf` says something else.
+    Fused(f32),
+    /// Not a number at grazing angles.
+    Nan,
+    /// Not quite unit.
+    NotUnit,
+}
+
+struct Mutant<B> {
+    right: B,
+    wrong: Wrong,
+}
+
+impl<B: Bsdf> Mutant<B> {
+    fn mode(&self, mode: Mode) -> Mode {
+        match (self.wrong, mode) {
+            (Wrong::ModesSwapped, Mode::Radiance) | (Wrong::NoEtaSquared, _) => Mode::Importance,
+            (Wrong::ModesSwapped, Mode::Importance) => Mode::Radiance,
+            _ => mode,
+        }
+    }
+}
+
+impl<B: Bsdf> Bsdf for Mutant<B> {
+    fn lobes(&self) -> Lobes {
+        let l = self.right.lobes();
+        if self.wrong == Wrong::Undeclared { l - Lobes::DIFFUSE - Lobes::GLOSSY - Lobes::DELTA } else { l }
+    }
+
+    fn eval(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> Spectrum {
+        let e = self.right.eval(wo, wi, self.mode(mode));
+        match self.wrong {
+            Wrong::NoCosine if wi.z != 0.0 => e / wi.z.abs(),
+            Wrong::Eval(f) => e * f,
+            Wrong::Lopsided => e * (1.0 + 0.05 * wo.x.clamp(-1.0, 1.0)),
+            Wrong::Leak if wo.z * wi.z < 0.0 => Spectrum::gray(0.01 * wi.z.abs().clamp(0.0, 1.0)),
+            Wrong::Nan if wo.z.abs() < 1e-6 => Spectrum::gray(f32::NAN),
+            _ => e,
+        }
+    }
+
+    fn pdf(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> f32 {
+        let p = self.right.pdf(wo, wi, self.mode(mode));
+        match self.wrong {
+            Wrong::Pdf(f) | Wrong::PdfButNotWeight(f) | Wrong::PdfCall(f) => p * f,
+            _ => p,
+        }
+    }
+
+    fn sample(&self, wo: Vec3A, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let m = self.mode(mode);
+        let skew = if let Wrong::Skewed(power) = self.wrong { f64::from(power) } else { 1.0 };
+        let u = Vec2::new((f64::from(u.x).powf(skew) as f32).min(1.0 - f32::EPSILON), u.y);
+        if self.wrong == Wrong::Fails && u.x < 0.1 {
+            return None;
+        }
+        let mut s = self.right.sample(wo, u_lobe, u, m)?;
+        match self.wrong {
+            Wrong::Pdf(f) => {
+                s.pdf *= f;
+                s.weight = s.weight / f;
+            }
+            Wrong::PdfButNotWeight(f) => s.pdf *= f,
+            Wrong::Weight(f) => s.weight *= f,
+            Wrong::NoCosine => s.weight = s.weight / s.wi.z.abs(),
+            Wrong::EtaInverted => s.eta = 1.0 / s.eta,
+            Wrong::Lopsided => s.weight *= 1.0 + 0.05 * wo.x.clamp(-1.0, 1.0),
+            Wrong::NotUnit => s.wi *= 1.001,
+            Wrong::Moved(by) => {
+                s.wi = vector::normalize(s.wi + Vec3A::X * by);
+                let (e, p) = self.right.eval_pdf(wo, s.wi, m);
+                if p > 0.0 {
+                    s.pdf = p;
+                    s.weight = e / p;
+                }
+            }
+            _ => {}
+        }
+        Some(s)
+    }
+
+    fn eval_pdf(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> (Spectrum, f32) {
+        let both = (self.eval(wo, wi, mode), self.pdf(wo, wi, mode));
+        if let Wrong::Fused(f) = self.wrong { (both.0 * f, both.1) } else { both }
+    }
+
+    fn at(&self) -> BsdfAt<'_> {
+        BsdfAt::Ref(self)
+    }
+}
+
+pub(crate) fn mutants() -> Vec<Case<'static>> {
+    fn case<B: Bsdf + 'static>(name: &str, right: B, wrong: Wrong) -> Case<'static> {
+        let mutant = Mutant { right, wrong };
+        Case::new(name, move |b| check_bsdf(&mutant, b))
+    }
+    let lambert = Lambert::new(Spectrum::rgb(0.3, 0.6, 0.9));
+    let gold = |alpha| Conductor { ggx: Ggx::anisotropic(alpha, alpha), ..Conductor::gold(0.5) };
+    let glass =
+        |alpha| RoughDielectric { ggx: Ggx::anisotropic(alpha, alpha), ..RoughDielectric::new(0.5, 1.5) };
+    let clear = SmoothDielectric::new(1.5);
+    vec![
+        case("lambert: pdf 1 % too large, consistently", lambert, Wrong::Pdf(1.01)),
+        case("lambert: pdf 1 % too small, consistently", lambert, Wrong::Pdf(0.99)),
+        case("gold: pdf 1 % too large, consistently", gold(0.3), Wrong::Pdf(1.01)),
+        case("narrow gold: pdf 1 % too large, consistently", gold(0.001), Wrong::Pdf(1.01)),
+        case("glass: pdf 1 % too large, consistently", glass(0.3), Wrong::Pdf(1.01)),
+        case("lambert: pdf 1 % too large, weight not", lambert, Wrong::PdfButNotWeight(1.01)),
+        case("narrow gold: pdf 1 % too large, weight not", gold(0.001), Wrong::PdfButNotWeight(1.01)),
+        case("gold: pdf() says 1 % more than sample", gold(0.3), Wrong::PdfCall(1.01)),
+        case("gold: eval 1 % too large", gold(0.3), Wrong::Eval(1.01)),
+        case("gold: weight 1 % too large", gold(0.3), Wrong::Weight(1.01)),
+        case("glass: weight 1 % too small", glass(0.1), Wrong::Weight(0.99)),
+        case("white mirror: weight 1 % too large", Mirror::new(Spectrum::ONE), Wrong::Weight(1.01)),
+        case("clear glass: weight 1 % too large", clear, Wrong::Weight(1.01)),
+        case("lambert: no cosine", lambert, Wrong::NoCosine),
+        case("gold: no cosine", gold(0.3), Wrong::NoCosine),
+        case("clear glass: modes exchanged", clear, Wrong::ModesSwapped),
+        case("glass: modes exchanged", glass(0.3), Wrong::ModesSwapped),
+        case("clear glass: no eta²", clear, Wrong::NoEtaSquared),
+        case("glass: no eta²", glass(0.3), Wrong::NoEtaSquared),
+        case("clear glass: eta inverted", clear, Wrong::EtaInverted),
+        case("lambert: draws skewed, 15 % rms", lambert, Wrong::Skewed(1.15)),
+        case("gold: draws skewed, 15 % rms", gold(0.3), Wrong::Skewed(1.15)),
+        case("narrow gold: draws skewed, 15 % rms", gold(0.001), Wrong::Skewed(1.15)),
+        case("lambert: draws moved by 0.1", lambert, Wrong::Moved(0.1)),
+        case("gold: draws moved by a fifth of alpha", gold(0.3), Wrong::Moved(0.06)),
+        case("narrow gold: draws moved by a fifth of alpha", gold(0.001), Wrong::Moved(0.0002)),
+        case("lambert: a tenth of the draws fails", lambert, Wrong::Fails),
+        case("lambert: scatters where it never draws", lambert, Wrong::Leak),
+        case("gold: lopsided", gold(0.3), Wrong::Lopsided),
+        case("gold: an undeclared lobe", gold(0.3), Wrong::Undeclared),
+        case("gold: eval_pdf is not eval and pdf", gold(0.3), Wrong::Fused(1.001)),
+        case("lambert: NaN at grazing angles", lambert, Wrong::Nan),
+        case("lambert: not unit", lambert, Wrong::NotUnit),
+        Case::new("lambert: albedo 1.02", |b| check_bsdf(&Lambert::new(Spectrum::gray(1.02)), b)),
+    ]
+}
