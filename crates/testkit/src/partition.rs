@@ -13,7 +13,7 @@ const SHALLOWEST: u32 = 2;
 /// The smallest cells have 2⁻¹⁸ of a face's side: a hundred times the rounding of a direction.
 const DEEPEST: u32 = 18;
 /// Subdivisions of a cell while densities are integrated over it.
-const REFINEMENTS: u32 = 8;
+const REFINEMENTS: u32 = 6;
 
 /// A number with the error of the quadrature that gave it.
 #[derive(Clone, Copy, Debug, Default)]

@@ -41,6 +41,10 @@ fn cases() -> Vec<Case<'static>> {
             add(format!("rough dielectric, alpha {x} {y}, eta {eta:.2}, {masking:?}"), Box::new(glass));
         }
     }
+    for masking in [separable, correlated] {
+        let metal = Conductor::copper(0.5).with_masking(masking);
+        add(format!("copper, {masking:?}"), Box::new(metal));
+    }
     add("conductor, roughness 0".into(), Box::new(Conductor::gold(0.0)));
     add("conductor, roughness 0.01, the first rough one".into(), Box::new(Conductor::silver(0.01)));
     add("rough dielectric, roughness 0".into(), Box::new(RoughDielectric::new(0.0, 1.5)));

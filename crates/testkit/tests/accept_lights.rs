@@ -188,7 +188,7 @@ fn pickers() -> Vec<Case<'static>> {
 
 #[test]
 fn few_seeds() {
-    accept(&lights(), FEW, 0.1);
+    accept(&lights(), FEW, 0.05);
     accept(&pickers(), FEW, 0.1);
 }
 

@@ -46,6 +46,11 @@ enum Wrong {
     NotUnit,
 }
 
+/// More when seen from +x.
+fn lean(wo: Vec3A) -> f32 {
+    if wo.is_finite() { 1.0 + 0.05 * wo.x.clamp(-1.0, 1.0) } else { 1.0 }
+}
+
 struct Mutant<B> {
     right: B,
     wrong: Wrong,
@@ -70,9 +75,10 @@ impl<B: Bsdf> Bsdf for Mutant<B> {
     fn eval(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> Spectrum {
         let e = self.right.eval(wo, wi, self.mode(mode));
         match self.wrong {
-            Wrong::NoCosine if wi.z != 0.0 => e / wi.z.abs(),
+            // Tame where directions are none, so that the defect alone is found.
+            Wrong::NoCosine if wi.z != 0.0 && (wi.dot(wi) - 1.0).abs() < 1e-3 => e / wi.z.abs(),
             Wrong::Eval(f) => e * f,
-            Wrong::Lopsided => e * (1.0 + 0.05 * wo.x.clamp(-1.0, 1.0)),
+            Wrong::Lopsided => e * lean(wo),
             Wrong::Leak if wo.z * wi.z < 0.0 => Spectrum::gray(0.01 * wi.z.abs().clamp(0.0, 1.0)),
             Wrong::Nan if wo.z.abs() < 1e-6 => Spectrum::gray(f32::NAN),
             _ => e,
@@ -104,7 +110,7 @@ impl<B: Bsdf> Bsdf for Mutant<B> {
             Wrong::Weight(f) => s.weight *= f,
             Wrong::NoCosine => s.weight = s.weight / s.wi.z.abs(),
             Wrong::EtaInverted => s.eta = 1.0 / s.eta,
-            Wrong::Lopsided => s.weight *= 1.0 + 0.05 * wo.x.clamp(-1.0, 1.0),
+            Wrong::Lopsided => s.weight *= lean(wo),
             Wrong::NotUnit => s.wi *= 1.001,
             Wrong::Moved(by) => {
                 s.wi = vector::normalize(s.wi + Vec3A::X * by);
@@ -122,6 +128,10 @@ impl<B: Bsdf> Bsdf for Mutant<B> {
     fn eval_pdf(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> (Spectrum, f32) {
         let both = (self.eval(wo, wi, mode), self.pdf(wo, wi, mode));
         if let Wrong::Fused(f) = self.wrong { (both.0 * f, both.1) } else { both }
+    }
+
+    fn albedo(&self, wo: Vec3A) -> Spectrum {
+        self.right.albedo(wo)
     }
 
     fn at(&self) -> BsdfAt<'_> {

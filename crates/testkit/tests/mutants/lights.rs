@@ -108,6 +108,8 @@ impl Light for Mutant {
         match self.wrong {
             Wrong::Cone => b.cos_emission = 0.9,
             Wrong::Bounds => b.bounds.hi.x -= 0.01,
+            // A generous box, or the end would be found outside of it.
+            Wrong::End => b.bounds = etendue_core::Aabb { lo: b.bounds.lo - 1.0, hi: b.bounds.hi + 1.0 },
             _ => {}
         }
         Some(b)

@@ -39,6 +39,7 @@ enum Wrong {
 #[derive(Clone, Copy)]
 struct Mutant {
     right: Independent,
+    seed: u64,
     wrong: Wrong,
 }
 
@@ -46,8 +47,8 @@ static CURSOR: AtomicU32 = AtomicU32::new(0);
 
 impl Mutant {
     fn new(seed: u64, wrong: Wrong) -> Self {
-        let seed = if wrong == Wrong::Seed { 1 } else { seed };
-        Self { right: Independent::new(seed, 64).with_replicates(4), wrong }
+        let used = if wrong == Wrong::Seed { 1 } else { seed };
+        Self { right: Independent::new(used, 64).with_replicates(4), seed, wrong }
     }
 }
 
@@ -117,7 +118,10 @@ impl Sampler for Mutant {
     }
 
     fn fingerprint(&self, f: &mut Fingerprint) {
-        if self.wrong == Wrong::Fingerprint { f.tag("mutant") } else { self.right.fingerprint(f) }
+        f.tag("mutant");
+        if self.wrong != Wrong::Fingerprint {
+            f.u64(self.seed);
+        }
     }
 }
 

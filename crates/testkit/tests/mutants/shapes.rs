@@ -46,7 +46,7 @@ impl Shape for Mutant {
 
     fn intersect(&self, ray: &Ray) -> Option<ShapeHit> {
         let hit = match self.wrong {
-            Wrong::Interval => self.right.intersect(&Ray { t_max: f32::INFINITY, ..*ray }),
+            Wrong::Interval if ray.is_valid() => self.right.intersect(&Ray { t_max: f32::INFINITY, ..*ray }),
             _ => self.right.intersect(ray),
         }?;
         let length = vector::length(ray.d);
@@ -61,6 +61,8 @@ impl Shape for Mutant {
         let mut s = self.right.surface(ray, hit);
         match self.wrong {
             Wrong::Normal(by) => {
+                // A generous bound, or it would hit itself and be found by that.
+                s.p_err *= 100.0;
                 s.ng = vector::normalize(s.ng + s.shading.x * by);
                 s.shading = Frame::from_normal(s.ng);
             }
