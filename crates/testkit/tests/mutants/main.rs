@@ -15,14 +15,14 @@ mod shapes;
 use support::{Case, MANY, reject};
 
 /// Seeds of the ordinary run.
-const SOME: u64 = 4;
+const SOME: u64 = 10;
 
 /// An ordinary and a long test for a list of mutants.
 macro_rules! rejected {
     ($($name:ident),*) => {$(
         mod $name {
             #[test]
-            fn on_few_seeds() {
+            fn on_ten_seeds() {
                 super::reject(&crate::$name::mutants(), super::SOME, 1.0);
             }
 
