@@ -19,22 +19,38 @@
 //! Limits: MTL's specular highlights (`Ks`, `Ns`) have no physical meaning and are dropped with a warning. Concave
 //! polygons are split as fans. Uses scene, camera, material, light, texture, bsdf, geometry and core.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::indexing_slicing,
+        clippy::arithmetic_side_effects
+    )
+)]
+
 mod atomic;
 #[cfg(feature = "exr")]
+#[allow(clippy::indexing_slicing, clippy::arithmetic_side_effects)]
 mod exr_out;
+#[allow(clippy::arithmetic_side_effects)]
 pub mod fallback;
 mod limits;
+mod loaded;
 #[cfg(feature = "obj")]
+#[allow(clippy::indexing_slicing, clippy::arithmetic_side_effects)]
 pub mod obj;
 #[cfg(feature = "png")]
 mod png;
 mod resolver;
+#[allow(clippy::arithmetic_side_effects)]
 mod tonemap;
 
 pub use atomic::{WriteError, write_atomically};
 #[cfg(feature = "exr")]
 pub use exr_out::{ExrInfo, write_exr};
 pub use limits::Limits;
+pub use loaded::{LoadReport, Loaded, SceneCamera, View};
 #[cfg(feature = "png")]
 pub use png::write_png;
 pub use resolver::{FolderResolver, NoFiles, ResolveError, Resolver};
