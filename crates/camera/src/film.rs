@@ -14,6 +14,21 @@ pub enum FilmError {
     /// More memory than can be had.
     #[error("a film of {0} x {1} pixels with {2} replicates does not fit in memory")]
     TooLarge(u32, u32, u32),
+    /// A vector that does not belong to a film of this size.
+    #[error(
+        "a film's '{part}' have {found} entries where its size asks for {expected}; they belong to another film"
+    )]
+    Length {
+        /// Which vector.
+        part: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that size, replicates and planes ask for.
+        expected: usize,
+    },
+    /// More samples than can be counted.
+    #[error("the film's counts add up to 2^64 samples or more; they are damaged")]
+    Samples,
 }
 
 /// Why two films cannot be added.
@@ -29,6 +44,9 @@ pub enum MergeError {
     /// Different auxiliary planes.
     #[error("the films keep different auxiliary planes: {0:?} and {1:?}")]
     Planes(Planes, Planes),
+    /// More samples than can be counted.
+    #[error("the films together hold 2^64 samples or more; one of them is damaged")]
+    Samples,
 }
 
 /// The exact film: per pixel and replicate the integer sum of all samples and their number.
@@ -37,9 +55,9 @@ pub enum MergeError {
 /// the same bits. The scatter of replicates gives an error estimate that holds for QMC samples too.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film {
-    size: UVec2,
-    planes: Planes,
-    all: Tile,
+    pub(crate) size: UVec2,
+    pub(crate) planes: Planes,
+    pub(crate) all: Tile,
 }
 
 impl Film {
@@ -121,7 +139,7 @@ impl Film {
     /// Adds another film's samples. Exact: merging shards gives the bits of the whole.
     ///
     /// # Errors
-    /// Different size, replicates or planes; this film is then unchanged.
+    /// Different size, replicates or planes, or too many samples to count; this film is then unchanged.
     pub fn merge(&mut self, other: &Self) -> Result<(), MergeError> {
         if self.size != other.size {
             return Err(MergeError::Size(self.size, other.size));
@@ -131,6 +149,12 @@ impl Film {
         }
         if self.planes != other.planes {
             return Err(MergeError::Planes(self.planes, other.planes));
+        }
+        let hits = |film: &Self| film.plane().hits.iter().sum::<u64>();
+        if self.total_samples().checked_add(other.total_samples()).is_none()
+            || hits(self).checked_add(hits(other)).is_none()
+        {
+            return Err(MergeError::Samples);
         }
         self.absorb(&other.all);
         Ok(())
