@@ -1,5 +1,5 @@
 use std::fs::{self, File};
-use std::io::Write;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -31,6 +31,14 @@ pub enum WriteError {
 /// # Errors
 /// [`WriteError::Io`]; no temporary file is left behind.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    write_with(path, |out| out.write_all(bytes))
+}
+
+/// As [`write_atomically`], for what is too large to be made in memory first.
+pub(crate) fn write_with(
+    path: &Path,
+    put: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), WriteError> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
     let fail = |source| WriteError::Io { path: path.into(), source };
     let name = path.file_name().ok_or_else(|| fail(std::io::ErrorKind::InvalidInput.into()))?;
@@ -42,14 +50,34 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         .write(true)
         .create_new(true)
         .open(&temporary)
-        .and_then(|mut f| f.write_all(bytes).and_then(|()| f.sync_all()))
+        .and_then(|file| {
+            let mut out = BufWriter::new(file);
+            put(&mut out)?;
+            out.flush()?;
+            out.get_ref().sync_all()
+        })
         .and_then(|()| fs::rename(&temporary, path));
     if let Err(source) = written {
         // Best effort: the error that matters is the first.
         let _ = fs::remove_file(&temporary);
         return Err(fail(source));
     }
+    sync_folder(path);
     Ok(())
+}
+
+/// Flushes the folder's entry, so that the new name survives a power cut. The target is complete already, and not
+/// every file system can do this: a refusal is no error.
+fn sync_folder(path: &Path) {
+    #[cfg(unix)]
+    {
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if let Ok(folder) = File::open(folder) {
+            let _ = folder.sync_all();
+        }
+    }
+    #[cfg(not(unix))]
+    let _ = path;
 }
 
 #[cfg(test)]

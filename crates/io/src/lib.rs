@@ -35,6 +35,7 @@ mod atomic;
 mod exr_out;
 #[allow(clippy::arithmetic_side_effects)]
 pub mod fallback;
+mod film;
 mod limits;
 mod loaded;
 #[cfg(feature = "obj")]
@@ -49,6 +50,10 @@ mod tonemap;
 pub use atomic::{WriteError, write_atomically};
 #[cfg(feature = "exr")]
 pub use exr_out::{ExrInfo, write_exr};
+pub use film::{
+    Digest, FilmFile, FilmInfo, FilmMergeError, FilmReadError, IndexRanges, SamplesError, film_bytes,
+    read_film, read_film_bytes, write_film,
+};
 pub use limits::Limits;
 pub use loaded::{LoadReport, Loaded, SceneCamera, View};
 #[cfg(feature = "png")]

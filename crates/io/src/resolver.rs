@@ -87,21 +87,30 @@ impl Resolver for FolderResolver {
     }
 }
 
+/// A regular file of at most `limit` bytes, opened, and its length.
+pub(crate) fn open_file(path: &Path, name: &str, limit: u64) -> Result<(std::fs::File, u64), ResolveError> {
+    let open = |source| ResolveError::Open { name: name.into(), source };
+    // Asked by the path first: opening a pipe would wait for its other end.
+    if !std::fs::metadata(path).map_err(open)?.is_file() {
+        return Err(ResolveError::NotAFile(name.into()));
+    }
+    let file = std::fs::File::open(path).map_err(open)?;
+    let length = file.metadata().map_err(open)?.len();
+    if length > limit {
+        return Err(ResolveError::TooLarge { name: name.into(), limit });
+    }
+    Ok((file, length))
+}
+
 /// The bytes of a regular file of at most `limit` bytes; never more is read or allocated than is there.
 pub(crate) fn read_file(path: &Path, name: &str, limit: u64) -> Result<Vec<u8>, ResolveError> {
     let open = |source| ResolveError::Open { name: name.into(), source };
-    let meta = std::fs::metadata(path).map_err(open)?;
-    if !meta.is_file() {
-        return Err(ResolveError::NotAFile(name.into()));
-    }
-    if meta.len() > limit {
-        return Err(ResolveError::TooLarge { name: name.into(), limit });
-    }
+    let (file, length) = open_file(path, name, limit)?;
     let mut bytes = Vec::new();
+    let room = usize::try_from(length).unwrap_or(usize::MAX);
+    bytes.try_reserve_exact(room).map_err(|_| open(std::io::ErrorKind::OutOfMemory.into()))?;
     // The file may grow while it is read; one byte beyond the limit tells.
-    std::fs::File::open(path)
-        .and_then(|f| f.take(limit.saturating_add(1)).read_to_end(&mut bytes))
-        .map_err(open)?;
+    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(open)?;
     if bytes.len() as u64 > limit {
         return Err(ResolveError::TooLarge { name: name.into(), limit });
     }
