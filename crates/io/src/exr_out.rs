@@ -1,21 +1,35 @@
 use std::path::Path;
 
-use etendue_camera::Film;
+use etendue_camera::{Film, TileRect};
 use etendue_core::UVec2;
 use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec,
     Text, WritableImage,
 };
 
-use crate::{WriteError, write_atomically};
+use crate::{Digest, FilmInfo, WriteError, write_atomically};
 
 /// What is said about a picture inside its file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ExrInfo {
     /// Biased options that were in force; empty for an unbiased picture.
     pub bias: Vec<String>,
+    /// The scene's fingerprint.
+    pub scene: Option<Digest>,
+    /// That of camera, integrator, sampler and filter.
+    pub settings: Option<Digest>,
     /// Further (name, value) pairs, such as a seed.
     pub notes: Vec<(String, String)>,
+}
+
+impl ExrInfo {
+    /// What a film file knows about its film.
+    pub fn of(info: &FilmInfo, bias: Vec<String>) -> Self {
+        let mut notes: Vec<(String, String)> =
+            info.words.iter().map(|(k, v)| (k.clone(), v.clone())).collect();
+        notes.push(("samples".into(), info.samples.to_string()));
+        Self { bias, scene: Some(info.scene), settings: Some(info.settings), notes }
+    }
 }
 
 /// Writes a film as OpenEXR in 32-bit floats: R, G, B, and every auxiliary plane it keeps (`albedo.R` …,
@@ -25,11 +39,10 @@ pub struct ExrInfo {
 /// [`WriteError`]; the target is then as it was.
 pub fn write_exr(path: &Path, film: &Film, info: &ExrInfo) -> Result<(), WriteError> {
     let size = film.size();
-    let n = size.x as usize * size.y as usize;
-    let pixel = |i: usize| UVec2::new((i % size.x as usize) as u32, (i / size.x as usize) as u32);
+    let pixels = || TileRect { lo: UVec2::ZERO, hi: size }.iter();
     let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = SmallVec::new();
     let mut float = |name: &str, f: &dyn Fn(UVec2) -> f32| {
-        let samples = (0..n).map(|i| f(pixel(i))).collect();
+        let samples = pixels().map(f).collect();
         channels.push(AnyChannel::new(name, FlatSamples::F32(samples)));
     };
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
@@ -55,8 +68,7 @@ pub fn write_exr(path: &Path, film: &Film, info: &ExrInfo) -> Result<(), WriteEr
     if planes.ids {
         let mut id = |name: &str, f: &dyn Fn(etendue_camera::Ids) -> u32| {
             // One beyond the id, so that 0 is nothing.
-            let samples =
-                (0..n).map(|i| film.ids(pixel(i)).map_or(0, |ids| f(ids).wrapping_add(1))).collect();
+            let samples = pixels().map(|p| film.ids(p).map_or(0, |ids| f(ids).wrapping_add(1))).collect();
             channels.push(AnyChannel::new(name, FlatSamples::U32(samples)));
         };
         id("id.inst", &|i| i.inst);
@@ -71,9 +83,17 @@ pub fn write_exr(path: &Path, film: &Film, info: &ExrInfo) -> Result<(), WriteEr
             attributes.other.insert(name, AttributeValue::Text(value));
         }
     };
-    let samples = film.total_samples() as f64 / n as f64;
+    let samples = film.total_samples() as f64 / (f64::from(size.x) * f64::from(size.y));
     note("etendue.spp", &format!("{samples}"));
     note("etendue.bias", &if info.bias.is_empty() { "none".into() } else { info.bias.join("; ") });
+    for (name, digest) in [("etendue.scene", info.scene), ("etendue.settings", info.settings)] {
+        if let Some(Digest { value, opaque }) = digest {
+            note(
+                name,
+                &format!("{value:032x}{}", if opaque { " (not all of it describes itself)" } else { "" }),
+            );
+        }
+    }
     for (name, value) in &info.notes {
         // A name of their own, so that no note can stand in for what the library says.
         note(&format!("etendue.note.{name}"), value);
@@ -100,22 +120,24 @@ pub fn write_exr(path: &Path, film: &Film, info: &ExrInfo) -> Result<(), WriteEr
 fn sort_attributes(file: &mut [u8]) {
     /// Magic number and version.
     const START: usize = 8;
-    fn attribute(rest: &[u8]) -> Option<usize> {
+    fn attribute(rest: &[u8]) -> Option<&[u8]> {
         let name = rest.iter().position(|&b| b == 0)?;
-        let kind = rest.get(name + 1..)?.iter().position(|&b| b == 0)?;
-        let size_at = name + kind + 2;
-        let size = u32::from_le_bytes(rest.get(size_at..size_at + 4)?.try_into().ok()?);
-        (size_at + 4).checked_add(size as usize).filter(|&end| end <= rest.len())
+        let kind = rest.get(name.checked_add(1)?..)?.iter().position(|&b| b == 0)?;
+        let size_at = name.checked_add(kind)?.checked_add(2)?;
+        let value_at = size_at.checked_add(4)?;
+        let size = u32::from_le_bytes(rest.get(size_at..value_at)?.try_into().ok()?);
+        rest.get(..value_at.checked_add(size as usize)?)
     }
     let mut found = Vec::new();
-    let mut at = START;
-    while file.get(at).is_some_and(|&b| b != 0) {
-        let Some(length) = file.get(at..).and_then(attribute) else { return };
-        found.push(file[at..at + length].to_vec());
-        at += length;
+    let mut rest = file.get(START..).unwrap_or(&[]);
+    while rest.first().is_some_and(|&b| b != 0) {
+        let Some(whole) = attribute(rest) else { return };
+        found.push(whole.to_vec());
+        rest = rest.get(whole.len()..).unwrap_or(&[]);
     }
     found.sort();
-    if let Some(header) = file.get_mut(START..at) {
-        header.copy_from_slice(&found.concat());
+    let sorted = found.concat();
+    if let Some(header) = file.get_mut(START..).and_then(|f| f.get_mut(..sorted.len())) {
+        header.copy_from_slice(&sorted);
     }
 }

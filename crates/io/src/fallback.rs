@@ -32,7 +32,7 @@ const SKY: UVec2 = UVec2::new(64, 32);
 /// A soft sky: bright above, dim below, with one warm broad light over the camera's left shoulder.
 pub fn light(builder: &mut SceneBuilder) {
     let key = vector::normalize(Vec3A::new(-0.6, 0.7, 0.75));
-    let mut texels = Vec::with_capacity(3 * (SKY.x * SKY.y) as usize);
+    let mut texels = Vec::new();
     for y in 0..SKY.y {
         for x in 0..SKY.x {
             let phi = (x as f32 + 0.5) / SKY.x as f32 * std::f32::consts::TAU;

@@ -1,6 +1,9 @@
 //! Bytes to scenes and films to bytes: the only crate that knows file formats.
 //!
-//! Features: `obj` (OBJ and MTL in), `png` and `exr` (pictures out). A file can be wrong in any way and yields an
+//! Films as `.film` files, which keep every bit, name the samples they hold, and can be added up ([`FilmFile`]);
+//! pictures in ([`read_picture`], [`decode_texture`]) and out, and how far one is from another ([`compare`]).
+//!
+//! Features: `obj` (OBJ and MTL in), `png`, `hdr` and `exr` (pictures in and out). A file can be wrong in any way and yields an
 //! error that says where and what, or a picture with warnings in its report; it cannot crash the program, make it
 //! take memory that the file merely claims, or read outside the scene's folder. Pictures are written beside the
 //! target and renamed, so a target is old or new, never half.
@@ -16,7 +19,7 @@
 //! # let _ = (camera, b);
 //! ```
 //!
-//! Limits: MTL's specular highlights (`Ks`, `Ns`) have no physical meaning and are dropped with a warning. Concave
+//! Limits: deep and subsampled EXR is refused. MTL's specular highlights (`Ks`, `Ns`) have no physical meaning and are dropped with a warning. Concave
 //! polygons are split as fans. Uses scene, camera, material, light, texture, bsdf, geometry and core.
 
 #![cfg_attr(
@@ -30,21 +33,23 @@
 )]
 
 mod atomic;
+pub mod compare;
 #[cfg(feature = "exr")]
-#[allow(clippy::indexing_slicing, clippy::arithmetic_side_effects)]
 mod exr_out;
-#[allow(clippy::arithmetic_side_effects)]
 pub mod fallback;
 mod film;
+#[cfg(feature = "hdr")]
+mod hdr_out;
 mod limits;
 mod loaded;
 #[cfg(feature = "obj")]
 #[allow(clippy::indexing_slicing, clippy::arithmetic_side_effects)]
 pub mod obj;
+#[cfg(any(feature = "gltf", feature = "obj", feature = "png", feature = "hdr", feature = "exr"))]
+mod picture;
 #[cfg(feature = "png")]
 mod png;
 mod resolver;
-#[allow(clippy::arithmetic_side_effects)]
 mod tonemap;
 
 pub use atomic::{WriteError, write_atomically};
@@ -54,8 +59,12 @@ pub use film::{
     Digest, FilmFile, FilmInfo, FilmMergeError, FilmReadError, IndexRanges, SamplesError, film_bytes,
     read_film, read_film_bytes, write_film,
 };
+#[cfg(feature = "hdr")]
+pub use hdr_out::write_hdr;
 pub use limits::Limits;
 pub use loaded::{LoadReport, Loaded, SceneCamera, View};
+#[cfg(any(feature = "gltf", feature = "obj", feature = "png", feature = "hdr", feature = "exr"))]
+pub use picture::{ImageBudget, Picture, PictureError, decode_texture, read_picture, read_picture_bytes};
 #[cfg(feature = "png")]
 pub use png::write_png;
 pub use resolver::{FolderResolver, NoFiles, ResolveError, Resolver};

@@ -4,7 +4,7 @@ mod common;
 
 use common::Folder;
 use etendue_camera::{Film, FirstHit, Ids, Planes, TileRect};
-use etendue_core::{Spectrum, UVec2, Vec3A};
+use etendue_core::{Spectrum, UVec2, Vec3A, math};
 use etendue_io::{
     Digest, FilmFile, FilmInfo, FilmMergeError, FilmReadError, IndexRanges, Limits, SamplesError, film_bytes,
     read_film, read_film_bytes, write_film,
@@ -15,7 +15,7 @@ const SIZE: UVec2 = UVec2::new(3, 2);
 
 /// What a render would add: a function of pixel and index alone.
 fn add(film: &mut Film, pixel: UVec2, index: u64) {
-    let v = (index as f32 * 7.3 + pixel.x as f32 * 1.7 + pixel.y as f32).sin();
+    let v = math::sin_cos(index as f32 * 7.3 + pixel.x as f32 * 1.7 + pixel.y as f32).0;
     let replicate = (index % u64::from(film.replicates())) as u32;
     film.add(pixel, replicate, Spectrum::rgb(v, 1e6 * v, if index == 5 { f32::NAN } else { 1e-9 }));
     film.add_alpha(pixel, v.abs());

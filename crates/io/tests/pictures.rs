@@ -6,7 +6,7 @@ mod common;
 use common::Folder;
 use etendue_camera::{Film, FirstHit, Ids, Planes};
 use etendue_core::{Spectrum, UVec2, Vec3A};
-use etendue_io::{ExrInfo, ToneMap, WriteError, write_exr, write_png};
+use etendue_io::{Digest, ExrInfo, ToneMap, WriteError, write_exr, write_png};
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
 
 const SIZE: UVec2 = UVec2::new(5, 3);
@@ -89,6 +89,8 @@ fn exr_reads_back_with_its_planes_and_notes() {
             ("sampler".into(), "sobol".into()),
             ("bias".into(), "none".into()),
         ],
+        scene: Some(Digest { value: 0xabc, opaque: false }),
+        settings: Some(Digest { value: 1, opaque: true }),
     };
     write_exr(&path, &film, &info).unwrap();
     let image = read_exr(&path);
@@ -125,6 +127,8 @@ fn exr_reads_back_with_its_planes_and_notes() {
     };
     assert_eq!(note("etendue.spp").as_deref(), Some("2"));
     assert_eq!(note("etendue.bias").as_deref(), Some("max_depth=3; clamped"));
+    assert_eq!(note("etendue.scene").as_deref(), Some("00000000000000000000000000000abc"));
+    assert!(note("etendue.settings").unwrap().contains("not all of it"));
     assert_eq!(note("etendue.note.seed").as_deref(), Some("17"));
     assert_eq!(note("etendue.note.sampler").as_deref(), Some("sobol"));
     assert_eq!(layer.attributes.software_name.as_ref().map(ToString::to_string).as_deref(), Some("etendue"));
@@ -162,7 +166,7 @@ fn the_same_film_gives_the_same_bytes() {
     let film = film(Planes::ALL);
     // Many notes, so that an order by chance would not be the same twice.
     let notes = (0..20).map(|i| (format!("note{i}"), i.to_string())).collect();
-    let info = ExrInfo { bias: Vec::new(), notes };
+    let info = ExrInfo { notes, ..ExrInfo::default() };
     for name in ["a", "b"] {
         write_exr(&folder.path().join(format!("{name}.exr")), &film, &info).unwrap();
         write_png(&folder.path().join(format!("{name}.png")), &film, &ToneMap::default()).unwrap();

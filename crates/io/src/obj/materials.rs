@@ -7,7 +7,7 @@ use etendue_material::{Cutout, Diffuse, Glass, Metal, MirrorMaterial};
 use etendue_scene::{Emission, GeomId, MaterialId, SceneBuilder};
 use etendue_texture::{Channel, Encoding, ImageTexture, ImageUse, ScalarTex, Tex};
 
-use crate::{Limits, ResolveError, Resolver};
+use crate::{ImageBudget, Limits, ResolveError, Resolver, decode_texture};
 
 /// Materials and where each name is among them, as the parser hands them over.
 type Library = (Vec<tobj::Material>, HashMap<String, usize>);
@@ -106,14 +106,14 @@ pub(crate) struct Made<'a> {
     /// By number in the file, and whether the vertices bring colours.
     ids: HashMap<(Option<usize>, bool), MaterialId>,
     images: HashMap<(String, Encoding), Option<Arc<ImageTexture>>>,
-    image_bytes: u64,
+    budget: ImageBudget,
     pub(crate) warnings: Vec<String>,
 }
 
 impl<'a> Made<'a> {
     pub(crate) fn new(mtl: &'a [tobj::Material], resolver: &'a dyn Resolver, limits: &'a Limits) -> Self {
         let (ids, images) = Default::default();
-        Self { mtl, resolver, limits, ids, images, image_bytes: 0, warnings: Vec::new() }
+        Self { mtl, resolver, limits, ids, images, budget: ImageBudget::new(limits), warnings: Vec::new() }
     }
 
     pub(crate) fn count(&self) -> usize {
@@ -221,25 +221,7 @@ impl<'a> Made<'a> {
 
     fn decode(&mut self, name: &str, encoding: Encoding) -> Result<ImageTexture, String> {
         let bytes = self.resolver.read(name, self.limits.file_bytes).map_err(|e| e.to_string())?;
-        let left = self.limits.all_image_bytes.saturating_sub(self.image_bytes);
-        let most = self.limits.image_bytes.min(left);
-        let open = || image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
-        // Four bytes a pixel are kept, whatever the decoder itself needs.
-        let (w, h) = open().map_err(|e| e.to_string())?.into_dimensions().map_err(|e| e.to_string())?;
-        let kept = u64::from(w).saturating_mul(u64::from(h)).saturating_mul(4);
-        if kept > most {
-            return Err(format!("{w} x {h} pixels need {kept} bytes, more than the {most} allowed"));
-        }
-        let mut limits = image::Limits::default();
-        limits.max_image_width = Some(self.limits.image_side);
-        limits.max_image_height = Some(self.limits.image_side);
-        limits.max_alloc = Some(most);
-        let mut reader = open().map_err(|e| e.to_string())?;
-        reader.limits(limits);
-        let rgba = reader.decode().map_err(|e| e.to_string())?.into_rgba8();
-        self.image_bytes += rgba.as_raw().len() as u64;
-        let (w, h) = rgba.dimensions();
-        ImageTexture::from_u8(w, h, 4, rgba.into_raw(), encoding).map_err(|e| e.to_string())
+        decode_texture(&bytes, encoding, &mut self.budget).map_err(|e| e.to_string())
     }
 }
 
