@@ -22,7 +22,7 @@ impl Glass {
 impl Material for Glass {
     #[inline]
     fn bsdf<'a>(&'a self, _at: &Surface) -> BsdfAt<'a> {
-        BsdfAt::SmoothDielectric(SmoothDielectric { eta: self.eta })
+        BsdfAt::SmoothDielectric(SmoothDielectric::new(self.eta))
     }
 
     fn is_delta(&self) -> bool {
@@ -61,7 +61,11 @@ impl Material for RoughGlass {
     #[inline]
     fn bsdf<'a>(&'a self, at: &Surface) -> BsdfAt<'a> {
         let ggx = Ggx::from_roughness(parameter::scalar(&self.roughness, at));
-        BsdfAt::RoughDielectric(RoughDielectric { ggx, eta: self.eta, masking: self.masking })
+        BsdfAt::RoughDielectric(RoughDielectric {
+            ggx,
+            masking: self.masking,
+            ..RoughDielectric::new(0.0, self.eta)
+        })
     }
 
     fn is_delta(&self) -> bool {
