@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use etendue::bsdf::{Conductor, Lambert, Mirror, RoughDielectric, SmoothDielectric};
+use etendue::bsdf::{Conductor, Lambert, Meaning, Mirror, Principled, RoughDielectric, SmoothDielectric};
 use etendue::prelude::*;
 use etendue::sampling::warp;
 
@@ -35,13 +35,22 @@ fn calls() -> Vec<Call> {
 
 fn bsdfs(c: &mut Criterion) {
     let calls = calls();
-    let models: [(&str, BsdfAt<'_>); 6] = [
+    let color = Spectrum::rgb(0.8, 0.5, 0.2);
+    let plastic = Principled::new(color, 0.0, 0.4);
+    let metal = Principled::new(color, 1.0, 0.4);
+    let gltf = Meaning::GltfB;
+    let models: [(&str, BsdfAt<'_>); 11] = [
         ("lambert", BsdfAt::Lambert(Lambert::new(Spectrum::gray(0.7)))),
         ("mirror", BsdfAt::Mirror(Mirror::new(Spectrum::gray(0.7)))),
         ("gold 0.3", BsdfAt::Conductor(Conductor::gold(0.3))),
         ("smooth gold", BsdfAt::Conductor(Conductor::gold(0.0))),
         ("smooth dielectric", BsdfAt::SmoothDielectric(SmoothDielectric::new(1.5))),
         ("rough dielectric 0.3", BsdfAt::RoughDielectric(RoughDielectric::new(0.3, 1.5))),
+        ("principled plastic", BsdfAt::Principled(plastic)),
+        ("principled metal", BsdfAt::Principled(metal)),
+        ("principled half glass", BsdfAt::Principled(Principled { transmission: 0.5, ..plastic })),
+        ("gltf plastic", BsdfAt::Principled(Principled { meaning: gltf, ..plastic })),
+        ("gltf metal", BsdfAt::Principled(Principled { meaning: gltf, ..metal })),
     ];
     let mut group = c.benchmark_group("bsdfs");
     group.throughput(Throughput::Elements(CALLS as u64));

@@ -34,7 +34,7 @@ pub mod prelude {
         render, replay,
     };
     pub use etendue_light::{ConstantEnvironment, ImageEnvironment, Light, LightPicker, PointLight};
-    pub use etendue_material::{Diffuse, Glass, Material, Metal};
+    pub use etendue_material::{Diffuse, Glass, Material, Metal, NormalMapped, Principled};
     pub use etendue_sampling::{Dim, Independent, Sampler, Slot, Sobol, Stratified};
     pub use etendue_scene::{Emission, Scene, SceneBuilder};
     pub use etendue_texture::{ImageTexture, Tex, Texture};

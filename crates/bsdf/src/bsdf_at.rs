@@ -1,8 +1,8 @@
 use etendue_core::{Spectrum, Vec2, Vec3A};
 
 use crate::{
-    Black, Bsdf, BsdfSample, Conductor, Lambert, Lobes, Mirror, Mode, RoughDielectric, Scatter,
-    SmoothDielectric,
+    Black, Bsdf, BsdfSample, Conductor, Lambert, Lobes, Mirror, Mode, Principled, RoughDielectric, Scatter,
+    SmoothDielectric, ThinDielectric,
 };
 
 /// A BSDF at one point, as an integrator holds it: by value where it is ours, through one door where it is a user's.
@@ -19,6 +19,10 @@ pub enum BsdfAt<'a> {
     Conductor(Conductor),
     /// Frosted glass.
     RoughDielectric(RoughDielectric),
+    /// A wall of glass without thickness.
+    ThinDielectric(ThinDielectric),
+    /// glTF's surface.
+    Principled(Principled),
     /// Nothing comes back.
     Black(Black),
     /// A user's, living as long as the scene.
@@ -36,6 +40,8 @@ macro_rules! dispatch {
             BsdfAt::SmoothDielectric($b) => $e,
             BsdfAt::Conductor($b) => $e,
             BsdfAt::RoughDielectric($b) => $e,
+            BsdfAt::ThinDielectric($b) => $e,
+            BsdfAt::Principled($b) => $e,
             BsdfAt::Black($b) => $e,
             BsdfAt::Ref($b) => $e,
             BsdfAt::Open($b) => $e,
@@ -51,6 +57,8 @@ impl std::fmt::Debug for BsdfAt<'_> {
             Self::SmoothDielectric(b) => b.fmt(f),
             Self::Conductor(b) => b.fmt(f),
             Self::RoughDielectric(b) => b.fmt(f),
+            Self::ThinDielectric(b) => b.fmt(f),
+            Self::Principled(b) => b.fmt(f),
             Self::Black(b) => b.fmt(f),
             Self::Ref(b) => write!(f, "Ref({:?})", b.lobes()),
             Self::Open(b) => write!(f, "Open({:?})", b.lobes()),

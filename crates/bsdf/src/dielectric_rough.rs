@@ -16,6 +16,8 @@ pub struct RoughDielectric {
     pub eta: f32,
     /// Shadowing between facets, for reflection; see [`Masking`] for transmission.
     pub masking: Masking,
+    /// Factor on what gets through, each channel in `[0, 1]`; [`Spectrum::ONE`] for clear glass.
+    pub tint: Spectrum,
 }
 
 /// One facet met by `wo`: what both lobes share.
@@ -35,7 +37,7 @@ struct Facet {
 impl RoughDielectric {
     /// An isotropic rough boundary with height-correlated masking.
     pub fn new(roughness: f32, eta: f32) -> Self {
-        Self { ggx: Ggx::from_roughness(roughness), eta, masking: Masking::default() }
+        Self { ggx: Ggx::from_roughness(roughness), eta, masking: Masking::default(), tint: Spectrum::ONE }
     }
 
     /// The same boundary with another masking.
@@ -55,7 +57,7 @@ impl RoughDielectric {
     }
 
     fn smooth(&self) -> SmoothDielectric {
-        SmoothDielectric { eta: self.eta }
+        SmoothDielectric { eta: self.eta, tint: self.tint }
     }
 
     #[inline]
@@ -153,7 +155,8 @@ impl Bsdf for RoughDielectric {
         }
         let wi = if wo.z < 0.0 { Vec3A::new(i.x, i.y, -i.z) } else { i };
         let crossed = if side == Lobes::TRANSMISSION { eta } else { 1.0 };
-        Some(BsdfSample { wi, weight: Spectrum::gray(weight), pdf, lobe: side | Lobes::GLOSSY, eta: crossed })
+        let weight = if side == Lobes::TRANSMISSION { self.tint * weight } else { Spectrum::gray(weight) };
+        Some(BsdfSample { wi, weight, pdf, lobe: side | Lobes::GLOSSY, eta: crossed })
     }
 
     #[inline]
@@ -164,7 +167,9 @@ impl Bsdf for RoughDielectric {
         let eta = relative_eta(self.eta, wo.z);
         let i = if wo.z < 0.0 { Vec3A::new(wi.x, wi.y, -wi.z) } else { wi };
         match self.eval_above(upper(wo), i, eta, mode) {
-            Some((f, pdf)) if f.is_finite() && pdf.is_finite() => (Spectrum::gray(f), pdf),
+            Some((f, pdf)) if f.is_finite() && pdf.is_finite() => {
+                (if i.z < 0.0 { self.tint * f } else { Spectrum::gray(f) }, pdf)
+            }
             _ => (Spectrum::BLACK, 0.0),
         }
     }

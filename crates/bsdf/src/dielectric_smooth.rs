@@ -11,12 +11,14 @@ use crate::{Bsdf, BsdfAt, BsdfSample, Lobes, Mode};
 pub struct SmoothDielectric {
     /// Refractive index of the interior over that of the exterior. A value that is not positive counts as 1.
     pub eta: f32,
+    /// Factor on what gets through, each channel in `[0, 1]`; [`Spectrum::ONE`] for clear glass.
+    pub tint: Spectrum,
 }
 
 impl SmoothDielectric {
     /// A boundary; 1.5 is window glass, 1.33 water.
     pub fn new(eta: f32) -> Self {
-        Self { eta }
+        Self { eta, tint: Spectrum::ONE }
     }
 }
 
@@ -57,15 +59,19 @@ impl Bsdf for SmoothDielectric {
             return None;
         }
         let weight = match mode {
-            Mode::Radiance => Spectrum::gray(1.0 / (eta * eta)),
-            Mode::Importance => Spectrum::ONE,
+            Mode::Radiance => self.tint * (1.0 / (eta * eta)),
+            Mode::Importance => self.tint,
         };
         let lobe = Lobes::TRANSMISSION | Lobes::DELTA;
         Some(BsdfSample { wi, weight, pdf: 1.0 - reflectance, lobe, eta })
     }
 
-    fn albedo(&self, _wo: Vec3A) -> Spectrum {
-        Spectrum::ONE
+    fn albedo(&self, wo: Vec3A) -> Spectrum {
+        if self.tint == Spectrum::ONE {
+            return Spectrum::ONE;
+        }
+        let reflectance = Interface::from_cos(wo.z, relative_eta(self.eta, wo.z)).reflectance as f32;
+        self.tint.lerp(Spectrum::ONE, if reflectance >= 0.0 { reflectance } else { 0.0 })
     }
 
     fn at(&self) -> BsdfAt<'_> {

@@ -46,6 +46,14 @@ impl Ggx {
         Self { alpha_x: x.clamp(Self::SMOOTH, 1e4), alpha_y: y.clamp(Self::SMOOTH, 1e4) }
     }
 
+    /// The same, no smoother than `alpha` along either axis.
+    #[must_use]
+    #[inline]
+    pub fn at_least(self, alpha: f32) -> Self {
+        let held = |a: f32| if a > alpha { a } else { alpha };
+        Self::anisotropic(held(self.alpha_x), held(self.alpha_y))
+    }
+
     /// Slope scale along local x.
     pub fn alpha_x(&self) -> f32 {
         self.alpha_x

@@ -16,22 +16,26 @@
 //! assert!(s.weight.max_channel() <= 1.0, "a metal returns no more than it gets");
 //! ```
 //!
-//! Limits: microfacet models are single scattering, so rough ones lose energy; three channels, so no dispersion.
+//! Limits: microfacet models but [`Principled`] are single scattering, so rough ones lose energy; three channels, so no
+//! dispersion.
 //!
 //! Place in the workspace: above `core` and `sampling`; `material` turns textures into these, integrators call them.
 
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN has to take the refusing branch")]
 
+mod albedo;
 mod black;
 mod bsdf;
 mod bsdf_at;
 mod conductor;
 mod dielectric_rough;
 mod dielectric_smooth;
+mod dielectric_thin;
 pub mod fresnel;
 mod ggx;
 mod lambert;
 mod mirror;
+mod principled;
 
 pub use black::Black;
 pub use bsdf::{Bsdf, BsdfSample, Lobes, Mode, Scatter};
@@ -39,7 +43,9 @@ pub use bsdf_at::BsdfAt;
 pub use conductor::Conductor;
 pub use dielectric_rough::RoughDielectric;
 pub use dielectric_smooth::SmoothDielectric;
+pub use dielectric_thin::ThinDielectric;
 pub use fresnel::MetalFresnel;
 pub use ggx::{Ggx, Masking};
 pub use lambert::Lambert;
 pub use mirror::Mirror;
+pub use principled::{Meaning, Principled};

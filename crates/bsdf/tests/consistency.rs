@@ -25,7 +25,7 @@ fn rough_models() -> Vec<(String, Box<dyn Bsdf>)> {
             let metal = Conductor { ggx, ..Conductor::gold(0.5) }.with_masking(masking);
             out.push((format!("gold {ax} {ay} {masking:?}"), Box::new(metal)));
             for eta in [1.5, 1.0 / 1.5, 1.1, 2.4] {
-                let glass = RoughDielectric { ggx, eta, masking };
+                let glass = RoughDielectric { ggx, eta, masking, tint: Spectrum::ONE };
                 out.push((format!("glass {ax} {ay} eta {eta} {masking:?}"), Box::new(glass)));
             }
         }
@@ -99,7 +99,7 @@ fn reciprocity() {
 fn draws_follow_the_density() {
     let ggx = Ggx::anisotropic(0.3, 0.6);
     let metal = Conductor { ggx, ..Conductor::gold(0.5) };
-    let glass = RoughDielectric { ggx, eta: 1.5, masking: Masking::HeightCorrelated };
+    let glass = RoughDielectric { ggx, ..RoughDielectric::new(0.5, 1.5) };
     let lambert = Lambert::new(Spectrum::gray(0.5));
     let cases: [(&str, &dyn Bsdf, Vec3A); 5] = [
         ("lambert", &lambert, at_cosine(0.5)),
@@ -121,7 +121,7 @@ fn draws_follow_the_density() {
 #[test]
 fn glass_density_integrates_to_the_mass_drawn() {
     for eta in [1.5f32, 1.0 / 1.5] {
-        let glass = RoughDielectric { ggx: Ggx::anisotropic(0.4, 0.4), eta, masking: Masking::default() };
+        let glass = RoughDielectric { ggx: Ggx::anisotropic(0.4, 0.4), ..RoughDielectric::new(0.5, eta) };
         for mu in [0.3, 0.8] {
             let wo = at_cosine(mu);
             let pdf = |wi: Vec3A| f64::from(glass.pdf(wo, wi, Mode::Radiance));
@@ -187,7 +187,7 @@ fn any_bsdf() -> impl Strategy<Value = BsdfAt<'static>> {
         match kind {
             0 => BsdfAt::Lambert(Lambert::new(Spectrum::gray(0.8))),
             1 => BsdfAt::SmoothDielectric(SmoothDielectric::new(eta)),
-            2 => BsdfAt::RoughDielectric(RoughDielectric { ggx, eta, masking }),
+            2 => BsdfAt::RoughDielectric(RoughDielectric { ggx, eta, masking, tint: Spectrum::ONE }),
             3 => BsdfAt::Conductor(Conductor { ggx, fresnel: index, masking }),
             _ => BsdfAt::Conductor(Conductor {
                 ggx,

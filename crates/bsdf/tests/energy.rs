@@ -172,8 +172,11 @@ fn smooth_limits_are_continuous() {
     let wo = at_cosine(0.7);
     let rough = white(1.01e-4, Masking::HeightCorrelated);
     assert!((sampled_albedo(&rough, wo) - 1.0).abs() < 1e-3);
-    let glass =
-        RoughDielectric { ggx: Ggx::anisotropic(1.01e-4, 1.01e-4), eta: 1.5, masking: Masking::Separable };
+    let glass = RoughDielectric {
+        ggx: Ggx::anisotropic(1.01e-4, 1.01e-4),
+        masking: Masking::Separable,
+        ..RoughDielectric::new(0.5, 1.5)
+    };
     let twin = SmoothDielectric::new(1.5);
     for (l, u) in triples(1000) {
         let (a, b) = (glass.sample(wo, l, u, Mode::Radiance), twin.sample(wo, l, u, Mode::Radiance));

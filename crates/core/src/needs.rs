@@ -33,5 +33,9 @@ bitflags::bitflags! {
         const VERTEX_COLORS = 1 << 13;
         /// A light that area or solid-angle sampling can reach but that rays can hit too (so that MIS has two sides).
         const AREA_LIGHTS = 1 << 14;
+        /// Some body absorbs light on its way through.
+        const ABSORPTION = 1 << 15;
+        /// Some material turns the shading normal by a texture.
+        const NORMAL_MAPS = 1 << 16;
     }
 }

@@ -1,7 +1,7 @@
 use std::cell::Cell;
 
 use etendue_core::rounding::gamma;
-use etendue_core::{Frame, Origin, Transform, Vec2, Vec3A, Vec4};
+use etendue_core::{Frame, Origin, Transform, Vec2, Vec3A, Vec4, vector};
 
 /// All that traversal keeps of a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +50,9 @@ pub struct Surface {
     pub dpdu: Vec3A,
     /// Derivative of the position by `uv[0].y`; zero where unknown.
     pub dpdv: Vec3A,
+    /// Side of the bitangent that the mesh's tangents give: it is `bitangent · (shading.z × shading.x)`, 1 or −1. 0 where
+    /// there are no tangents, and texture coordinates decide.
+    pub bitangent: f32,
     /// Radius of the ray's cone at the point, metres; 0 turns texture filtering off.
     pub footprint: f32,
     /// Moment in the shutter interval, in `[0, 1)`.
@@ -76,6 +79,7 @@ impl Surface {
             color: Vec4::ONE,
             dpdu: Vec3A::ZERO,
             dpdv: Vec3A::ZERO,
+            bitangent: 0.0,
             footprint: 0.0,
             time: 0.0,
             inst: Hit::NO_INSTANCE,
@@ -89,6 +93,28 @@ impl Surface {
     #[inline]
     pub fn origin(&self) -> Origin {
         Origin { p: self.p, p_err: self.p_err, ng: self.ng }
+    }
+
+    /// The direction that goes up in a normal map (glTF 2.0, section 3.9.3), unit, orthogonal to the shading frame's
+    /// normal and tangent: the side that the mesh's tangents give, else the one on which `v`, which grows downward in an
+    /// image, falls.
+    pub fn up_in_texture(&self) -> Vec3A {
+        let side = if self.bitangent != 0.0 { self.bitangent } else { -self.dpdv.dot(self.shading.y) };
+        if side < 0.0 { -self.shading.y } else { self.shading.y }
+    }
+
+    /// The shading frame around a normal given along tangent, bitangent and shading normal, of any length; the frame as
+    /// it is where that normal is none or points into the surface. `(0, 0, z)` changes no bit of it.
+    #[must_use]
+    pub fn mapped(&self, n: Vec3A) -> Frame {
+        if n.x == 0.0 && n.y == 0.0 {
+            return self.shading;
+        }
+        let turned = self.shading.x * n.x + self.up_in_texture() * n.y + self.shading.z * n.z;
+        match vector::try_normalize(turned) {
+            Some(z) if z.dot(self.ng) > 0.0 => Frame::from_normal_tangent(z, self.shading.x),
+            _ => self.shading,
+        }
     }
 
     /// The surface as seen in the space that `transform` maps to; normals keep their side under a mirror.
@@ -106,7 +132,12 @@ impl Surface {
         // Two normals less than a right angle apart may be mapped to more than one.
         let ns = transform.normal(self.shading.z);
         let ns = if ns.dot(self.ng) < 0.0 { -ns } else { ns };
+        let up = transform.vector(self.up_in_texture());
         self.shading = Frame::from_normal_tangent(ns, transform.vector(self.shading.x));
+        // A mirror changes the sense of the frame, not where the image's upper edge is.
+        if self.bitangent != 0.0 {
+            self.bitangent = if up.dot(self.shading.y) < 0.0 { -1.0 } else { 1.0 };
+        }
         self
     }
 }

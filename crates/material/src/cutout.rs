@@ -1,5 +1,5 @@
 use etendue_bsdf::BsdfAt;
-use etendue_core::{Fingerprint, Needs};
+use etendue_core::{Fingerprint, Frame, Needs, Spectrum};
 use etendue_geometry::Surface;
 use etendue_texture::{ScalarTex, TexPoint};
 
@@ -48,6 +48,14 @@ impl<M: Material> Material for Cutout<M> {
     fn opacity(&self, at: &AlphaPoint<'_>) -> f32 {
         let alpha = self.opacity.eval(&TexPoint { uv: at.uv, p: at.p, fetches: at.fetches });
         self.solid(if self.vertex_alpha { alpha * at.color.w } else { alpha }) * self.base.opacity(at)
+    }
+
+    fn shading_frame(&self, at: &Surface) -> Frame {
+        self.base.shading_frame(at)
+    }
+
+    fn absorption(&self) -> Option<Spectrum> {
+        self.base.absorption()
     }
 
     fn interior(&self) -> Option<MediumId> {

@@ -14,7 +14,7 @@
 //! assert!(matches!(leaf.bsdf(&at), BsdfAt::Lambert(_)));
 //! ```
 //!
-//! Limits: one model a material, no layers; no media inside yet.
+//! Limits: one model a material, no layers; bodies absorb, but do not scatter.
 //!
 //! Place in the workspace: above `core`, `geometry`, `bsdf` and `texture`; scenes hold materials, integrators ask them.
 
@@ -25,7 +25,9 @@ mod glass;
 mod material;
 mod metal;
 mod mirror;
+mod normal_map;
 mod parameter;
+mod principled;
 
 pub use absorber::Absorber;
 pub use cutout::Cutout;
@@ -34,3 +36,5 @@ pub use glass::{Glass, RoughGlass};
 pub use material::{AlphaPoint, Material, MediumId};
 pub use metal::{Metal, MetalColor};
 pub use mirror::MirrorMaterial;
+pub use normal_map::NormalMapped;
+pub use principled::Principled;

@@ -2,7 +2,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use etendue_bsdf::BsdfAt;
-use etendue_core::{Fingerprint, Needs, Vec2, Vec3A, Vec4};
+use etendue_core::{Fingerprint, Frame, Needs, Spectrum, Vec2, Vec3A, Vec4};
 use etendue_geometry::Surface;
 
 /// A medium filling the inside of a closed surface. No media exist yet; the type is the door for them.
@@ -32,6 +32,20 @@ pub trait Material: Send + Sync {
     fn opacity(&self, at: &AlphaPoint<'_>) -> f32 {
         let _ = at;
         1.0
+    }
+
+    /// The frame that the BSDF lives in: `at.shading`, unless a texture turns the normal, which has to stay on the side
+    /// of `at.ng`. Asked only if [`Material::needs`] says [`Needs::NORMAL_MAPS`].
+    fn shading_frame(&self, at: &Surface) -> Frame {
+        at.shading
+    }
+
+    /// What the body behind the surface absorbs of light on its way, m⁻¹ per channel (Beer–Lambert), each channel finite
+    /// or infinite but not negative; black for clear glass. `None` where there is no body that transmitted light enters:
+    /// an opaque surface, a wall without thickness. Asked only if some material [`needs`](Material::needs)
+    /// [`Needs::ABSORPTION`].
+    fn absorption(&self) -> Option<Spectrum> {
+        None
     }
 
     /// The medium inside.
@@ -68,6 +82,14 @@ impl<M: Material + ?Sized> Material for Arc<M> {
 
     fn opacity(&self, at: &AlphaPoint<'_>) -> f32 {
         (**self).opacity(at)
+    }
+
+    fn shading_frame(&self, at: &Surface) -> Frame {
+        (**self).shading_frame(at)
+    }
+
+    fn absorption(&self) -> Option<Spectrum> {
+        (**self).absorption()
     }
 
     fn interior(&self) -> Option<MediumId> {

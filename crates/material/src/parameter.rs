@@ -26,6 +26,16 @@ pub(crate) fn color_needs(tex: &Tex, vertex_color: bool) -> Needs {
     needs
 }
 
+/// An absorption, m⁻¹: each channel that is no positive number is 0.
+pub(crate) fn absorption(s: Spectrum) -> Spectrum {
+    s.map(|c| if c > 0.0 { c } else { 0.0 })
+}
+
+/// What the inside of a body asks for.
+pub(crate) fn absorption_needs(inside: Option<Spectrum>) -> Needs {
+    if inside.is_some_and(|s| !s.is_black()) { Needs::ABSORPTION } else { Needs::empty() }
+}
+
 pub(crate) fn scalar_needs(tex: &ScalarTex) -> Needs {
     if tex.is_constant() { Needs::empty() } else { Needs::TEXTURES }
 }

@@ -3,11 +3,12 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use etendue_bsdf::{Bsdf, BsdfAt, BsdfSample, Lobes, Mode};
+use etendue_bsdf::{Bsdf, BsdfAt, BsdfSample, Lobes, Meaning, Mode};
 use etendue_core::{Fingerprint, Needs, Spectrum, Vec2, Vec3A, Vec4};
 use etendue_geometry::Surface;
 use etendue_material::{
-    Absorber, AlphaPoint, Cutout, Diffuse, Glass, Material, Metal, MirrorMaterial, RoughGlass,
+    Absorber, AlphaPoint, Cutout, Diffuse, Glass, Material, Metal, MirrorMaterial, NormalMapped, Principled,
+    RoughGlass,
 };
 use etendue_texture::{Channel, Encoding, ImageTexture, ImageUse, ScalarTex, Tex};
 
@@ -33,6 +34,8 @@ fn needs_say_what_is_used() {
     let white = Spectrum::ONE;
     let across = Metal { roughness_across: Some(0.1.into()), ..Metal::gold(0.3) };
     let tinted = Diffuse { vertex_color: true, ..Diffuse::new(white) };
+    let ink = Spectrum::rgb(1.0, 0.5, 0.0);
+    let plain = |metallic: f32, roughness: f32| Principled::new(white, metallic, roughness);
     let cases: Vec<(Box<dyn Material>, Needs)> = vec![
         (Box::new(Diffuse::new(white)), Needs::empty()),
         (Box::new(Diffuse::new(Tex::from(image()))), Needs::TEXTURES),
@@ -53,6 +56,33 @@ fn needs_say_what_is_used() {
         (Box::new(Cutout::new(Glass::new(1.3), textured())), {
             Needs::CUTOUTS | Needs::TEXTURES | Needs::DELTA | Needs::TRANSMISSION
         }),
+        (Box::new(Glass { absorption: ink, ..Glass::new(1.5) }), {
+            Needs::DELTA | Needs::TRANSMISSION | Needs::ABSORPTION
+        }),
+        (Box::new(NormalMapped::new(Diffuse::new(white), image())), {
+            Needs::TEXTURES | Needs::TANGENTS | Needs::NORMAL_MAPS
+        }),
+        (Box::new(plain(0.0, 0.5)), Needs::empty()),
+        (Box::new(plain(0.0, 0.0)), Needs::DELTA),
+        (Box::new(Principled { meaning: Meaning::GltfB, ..plain(0.0, 0.0) }), Needs::empty()),
+        (Box::new(Principled { meaning: Meaning::GltfB, ..plain(1.0, 0.0) }), Needs::DELTA),
+        (Box::new(Principled { specular: 0.0.into(), ..plain(0.0, 0.0) }), Needs::empty()),
+        (Box::new(Principled { roughness: textured(), ..plain(0.0, 0.5) }), Needs::TEXTURES | Needs::DELTA),
+        (Box::new(Principled { transmission: 0.5.into(), ..plain(0.0, 0.5) }), Needs::TRANSMISSION),
+        (Box::new(Principled { transmission: 0.5.into(), absorption: ink, ..plain(0.0, 0.5) }), {
+            Needs::TRANSMISSION | Needs::ABSORPTION
+        }),
+        (
+            Box::new(Principled { transmission: 1.0.into(), absorption: ink, thin: true, ..plain(0.0, 0.5) }),
+            { Needs::TRANSMISSION },
+        ),
+        (
+            Box::new(Principled { transmission: 1.0.into(), absorption: ink, ..plain(1.0, 0.5) }),
+            Needs::empty(),
+        ),
+        (Box::new(Principled { transmission: 1.0.into(), ..plain(0.0, 0.0) }), {
+            Needs::TRANSMISSION | Needs::DELTA
+        }),
     ];
     let mut seen = std::collections::BTreeSet::new();
     for (i, (material, needs)) in cases.iter().enumerate() {
@@ -63,6 +93,7 @@ fn needs_say_what_is_used() {
         }
         if material.is_delta() {
             assert!(lobes.contains(Lobes::DELTA), "case {i}");
+            assert!(!lobes.intersects(Lobes::DIFFUSE | Lobes::GLOSSY), "case {i}");
         }
         assert_eq!(lobes.contains(Lobes::TRANSMISSION), needs.contains(Needs::TRANSMISSION), "case {i}");
         let mut f = Fingerprint::default();

@@ -34,4 +34,4 @@ mod scene;
 pub use builder::{Emission, GeomId, GroupId, InstanceId, MaterialId, SceneBuilder};
 pub use error::SceneError;
 pub use report::{MemoryReport, SceneReport};
-pub use scene::{LightDraw, Scene};
+pub use scene::{Body, LightDraw, Scene};

@@ -35,6 +35,15 @@ pub struct LightDraw {
     pub only_way: bool,
 }
 
+/// A body that light can enter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Number of its material: surfaces that share it bound one body.
+    pub material: u32,
+    /// What it absorbs, m⁻¹.
+    pub absorption: Spectrum,
+}
+
 /// An immutable scene, shared by any number of threads and renders.
 pub struct Scene {
     parts: Parts,
@@ -137,6 +146,14 @@ impl Scene {
     pub fn material(&self, surface: &Surface) -> Option<&dyn Material> {
         let m = *self.parts.geom_materials.get(surface.geom as usize)?;
         self.parts.materials.get(m as usize).map(|m| &**m)
+    }
+
+    /// The body behind a surface; `None` where transmitted light enters none (see [`Material::absorption`]).
+    #[inline]
+    pub fn body(&self, surface: &Surface) -> Option<Body> {
+        let material = *self.parts.geom_materials.get(surface.geom as usize)?;
+        let absorption = self.parts.materials.get(material as usize)?.absorption()?;
+        Some(Body { material, absorption })
     }
 
     /// The light that a surface is part of.

@@ -100,7 +100,7 @@ pub mod strategies;
 
 pub use bench_accel::{AccelSpeed, bench_accel};
 pub use budget::{Budget, Failure, Outcome, Passed};
-pub use check_bsdf::check_bsdf;
+pub use check_bsdf::{check_bsdf, check_bsdf_up_to};
 pub use check_camera::check_camera;
 pub use check_estimator::{Radiance, Truth, check_estimator, check_integrator};
 pub use check_light::{Seen, check_light, lit_point};

@@ -3,11 +3,11 @@
 mod support;
 
 use etendue_bsdf::{
-    Black, Bsdf, BsdfAt, Conductor, Ggx, Lambert, Masking, MetalFresnel, Mirror, RoughDielectric,
-    SmoothDielectric,
+    Black, Bsdf, BsdfAt, Conductor, Ggx, Lambert, Masking, Meaning, MetalFresnel, Mirror, Principled,
+    RoughDielectric, SmoothDielectric, ThinDielectric,
 };
 use etendue_core::Spectrum;
-use etendue_testkit::check_bsdf;
+use etendue_testkit::{check_bsdf, check_bsdf_up_to};
 use support::{Case, FEW, MANY, accept};
 
 fn cases() -> Vec<Case<'static>> {
@@ -37,7 +37,7 @@ fn cases() -> Vec<Case<'static>> {
         let metal = Conductor { ggx, masking, fresnel: MetalFresnel::Schlick { f0: color } };
         add(format!("conductor, alpha {x} {y}, {masking:?}"), Box::new(metal));
         for eta in [1.5f32, 1.0 / 1.5, 1.1, 2.4] {
-            let glass = RoughDielectric { ggx, eta, masking };
+            let glass = RoughDielectric { ggx, eta, masking, tint: Spectrum::ONE };
             add(format!("rough dielectric, alpha {x} {y}, eta {eta:.2}, {masking:?}"), Box::new(glass));
         }
     }
@@ -48,7 +48,58 @@ fn cases() -> Vec<Case<'static>> {
     add("conductor, roughness 0".into(), Box::new(Conductor::gold(0.0)));
     add("conductor, roughness 0.01, the first rough one".into(), Box::new(Conductor::silver(0.01)));
     add("rough dielectric, roughness 0".into(), Box::new(RoughDielectric::new(0.0, 1.5)));
+    for alpha in [0.0, 1e-3, 0.05, 0.5, 1.0] {
+        let tint = Spectrum::rgb(0.9, 0.5, 0.3);
+        for eta in [1.5, 1.0] {
+            let wall =
+                ThinDielectric { ggx: Ggx::anisotropic(alpha, alpha), tint, ..ThinDielectric::new(0.0, eta) };
+            add(format!("thin dielectric, alpha {alpha}, eta {eta}"), Box::new(wall));
+        }
+    }
     out
+}
+
+/// glTF's surface over its parameters, and how much light each meaning may make: none beyond the error of a table
+/// (0.5 %), or with appendix B up to as much again.
+fn principled() -> Vec<Case<'static>> {
+    let mut out = Vec::new();
+    let mut add = |p: Principled| {
+        let most = if p.meaning == Meaning::GltfB { 2.0 } else { 1.005 };
+        out.push(Case::new(format!("{p:?}"), move |b| check_bsdf_up_to(&p, most, b)));
+    };
+    let colors = [Spectrum::ONE, Spectrum::rgb(0.9, 0.3, 0.02), Spectrum::BLACK];
+    for (i, alpha) in [0.0, 1e-3, 0.01, 0.1, 0.5, 1.0].into_iter().enumerate() {
+        for (j, metallic) in [0.0, 0.5, 1.0].into_iter().enumerate() {
+            for meaning in [Meaning::EnergyPreserving, Meaning::GltfB] {
+                let opaque = Principled {
+                    ggx: Ggx::anisotropic(alpha, alpha),
+                    specular: [1.0, 0.5, 0.0][(i + j) % 3],
+                    specular_color: colors[(i + 2 * j) % 3] * 2.0,
+                    meaning,
+                    ..Principled::new(colors[(i + j) % 2], metallic, 0.0)
+                };
+                add(Principled { specular_color: Spectrum::ONE, ..opaque });
+                add(opaque);
+                for (transmission, thin) in [(0.5, false), (0.5, true), (1.0, false), (1.0, true)] {
+                    if metallic < 1.0 {
+                        add(Principled { transmission, thin, ior: [1.5, 1.33, 2.4][i % 3], ..opaque });
+                    }
+                }
+            }
+        }
+    }
+    out
+}
+
+#[test]
+fn principled_one_seed() {
+    accept(&principled(), 1, 0.1);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn principled_twenty_seeds() {
+    accept(&principled(), 20, 0.1);
 }
 
 #[test]

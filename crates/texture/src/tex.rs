@@ -31,7 +31,8 @@ impl ImageUse {
         self.transform.map_or(uv, |t| t.apply(uv))
     }
 
-    pub(crate) fn fingerprint(&self, f: &mut Fingerprint) {
+    /// What decides the look-up, for comparing scenes.
+    pub fn fingerprint(&self, f: &mut Fingerprint) {
         f.u64(u64::from(self.uv_set));
         self.transform.unwrap_or_default().fingerprint(f);
         f.floats(&self.scale.to_array());

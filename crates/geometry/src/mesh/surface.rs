@@ -19,7 +19,7 @@ impl TriangleMesh {
     pub fn surface(&self, prim: u32, uv: Vec2) -> Surface {
         let at = self.point(prim, uv);
         let ng = self.normal(prim).unwrap_or(Vec3A::Z);
-        let ns = self.shading_normal(prim, uv, ng);
+        let (ns, turned) = self.shading_normal(prim, uv, ng);
         let mut surface = Surface::new(at.p, at.p_err, ng);
         surface.prim = prim;
         surface.uv = [self.uv_at(0, prim, uv), self.uv_at(1, prim, uv)];
@@ -40,6 +40,8 @@ impl TriangleMesh {
                     surface.dpdu = t;
                     surface.dpdv = ns.cross(t) * if side < 0.0 { -1.0 } else { 1.0 };
                 }
+                // The bitangent is w (n × t) of the normal as the mesh has it, which may have been turned over.
+                surface.bitangent = if (side < 0.0) != turned { -1.0 } else { 1.0 };
                 Frame::from_normal_tangent(ns, t)
             }
             (_, Some(d)) => Frame::from_normal_tangent(ns, d.dpdu),
@@ -65,15 +67,16 @@ impl TriangleMesh {
         rounded(p, reach * loss(b - a, c - a))
     }
 
-    fn shading_normal(&self, prim: u32, uv: Vec2, ng: Vec3A) -> Vec3A {
+    /// On the side of `ng`, and whether it had to be turned over for that.
+    fn shading_normal(&self, prim: u32, uv: Vec2, ng: Vec3A) -> (Vec3A, bool) {
         let interpolated = self.corners_of(&self.normals, prim).and_then(|n| {
             let [a, b, c] = n.map(Vec3A::from);
             vector::try_normalize(a * (1.0 - uv.x - uv.y) + b * uv.x + c * uv.y)
         });
         match interpolated {
-            Some(n) if n.dot(ng) < 0.0 => -n,
-            Some(n) => n,
-            None => ng,
+            Some(n) if n.dot(ng) < 0.0 => (-n, true),
+            Some(n) => (n, false),
+            None => (ng, false),
         }
     }
 

@@ -1,4 +1,5 @@
 mod direct;
+mod inside;
 mod walk;
 
 use etendue_camera::CameraSample;

@@ -1,10 +1,11 @@
 use etendue_bsdf::{Bsdf, Lobes, Mode};
 use etendue_camera::CameraSample;
-use etendue_core::{Frame, Needs, Spectrum, Vec3A};
+use etendue_core::{Frame, Needs, Spectrum, Vec3A, vector};
 use etendue_light::{LitPoint, Sides};
 use etendue_sampling::{Dim, Sampler, Slot};
 
 use super::direct::{Scattered, cutout_bits};
+use super::inside::Inside;
 use super::{PathTracer, Roulette};
 use crate::{Context, Contribution, ContributionKind, Recorder, Sample, Vertex};
 
@@ -57,8 +58,11 @@ impl PathTracer {
         };
         let mut from = Scattered { at: nowhere, pdf: 0.0, only_way: true };
         let mut depth = 0;
+        let absorbs = needs.contains(Needs::ABSORPTION);
+        let mut inside = Inside::nothing();
         loop {
             let Some(hit) = scene.intersect(&ray, cutout_bits(cx, needs, &u, depth, false)) else {
+                let beta = if absorbs { beta * inside.transmittance(f32::INFINITY) } else { beta };
                 self.escape(cx, &ray, beta, depth, &from, &mut out, rec);
                 return out;
             };
@@ -67,8 +71,14 @@ impl PathTracer {
             }
             length += hit.t;
             let footprint = if needs.contains(Needs::TEXTURES) { length * s.spread } else { 0.0 };
-            let surface = scene.surface(&ray, &hit, footprint);
+            let mut surface = scene.surface(&ray, &hit, footprint);
             let wo = -ray.d;
+            if absorbs {
+                beta *= inside.transmittance(hit.t);
+                if beta.is_black() {
+                    return out;
+                }
+            }
 
             if let Some(id) = scene.light_at(&surface) {
                 let le = scene.emitted(id, &surface, wo);
@@ -92,6 +102,9 @@ impl PathTracer {
             }
 
             let Some(material) = scene.material(&surface) else { return out };
+            if needs.contains(Needs::NORMAL_MAPS) {
+                surface.shading = material.shading_frame(&surface);
+            }
             let bsdf = material.bsdf(&surface);
             // A ray that comes from behind the shading normal sees the geometric one: nothing turns black, and no
             // direction carries more than it should.
@@ -123,6 +136,7 @@ impl PathTracer {
             // Shading and geometric normal must agree about which side a direction is on, or light would leak.
             let agrees = |wi: Vec3A| wi.dot(frame.z) * wi.dot(surface.ng) > 0.0;
 
+            let body = if absorbs { scene.body(&surface) } else { None };
             let draw = self
                 .draw_light(cx, &at, lobes, depth, &u)
                 .filter(|d| agrees(d.sample.wi) && !d.sample.li.is_black());
@@ -135,18 +149,16 @@ impl PathTracer {
             if let Some(d) = draw
                 && !scatter.eval.is_black()
             {
-                self.add_light(
-                    cx,
-                    needs,
-                    &u,
-                    depth,
-                    &at,
-                    &d,
-                    beta * scatter.eval,
-                    scatter.pdf,
-                    &mut out,
-                    rec,
-                );
+                let mut throughput = beta * scatter.eval;
+                if absorbs {
+                    let there = match body {
+                        Some(b) => inside.beyond(b, wo.dot(surface.ng), d.sample.wi.dot(surface.ng)),
+                        None => inside,
+                    };
+                    let end = d.sample.end.map_or(f32::INFINITY, |e| vector::length(e.p - surface.p));
+                    throughput *= there.transmittance(end);
+                }
+                self.add_light(cx, needs, &u, depth, &at, &d, throughput, scatter.pdf, &mut out, rec);
             }
 
             let Some(sample) = scatter.sample else { return out };
@@ -164,6 +176,9 @@ impl PathTracer {
                 return out;
             }
             if sample.lobe.contains(Lobes::TRANSMISSION) {
+                if let Some(b) = body {
+                    inside = inside.beyond(b, wo.dot(surface.ng), wi.dot(surface.ng));
+                }
                 eta_scale *= sample.eta * sample.eta;
             }
             depth += 1;
@@ -185,5 +200,5 @@ impl PathTracer {
 
 /// Takes out the rounding that frames add, so that it does not build up from bounce to bounce.
 fn renormalized(d: Vec3A) -> Vec3A {
-    etendue_core::vector::normalize(d)
+    vector::normalize(d)
 }

@@ -1,5 +1,6 @@
 use etendue_bsdf::{
-    Bsdf, BsdfAt, BsdfSample, Conductor, Ggx, Lambert, Lobes, Mirror, Mode, RoughDielectric, SmoothDielectric,
+    Bsdf, BsdfAt, BsdfSample, Conductor, Ggx, Lambert, Lobes, Meaning, Mirror, Mode, Principled,
+    RoughDielectric, SmoothDielectric,
 };
 use etendue_core::{Spectrum, Vec2, Vec3A, vector};
 use etendue_testkit::check_bsdf;
@@ -38,6 +39,8 @@ enum Wrong {
     Lopsided,
     /// Says it has no lobe of its kind.
     Undeclared,
+    /// The lobe drawn with `u_lobe` to this power.
+    Lobe(f32),
     /// `eval_pdf` says something else.
     Fused(f32),
     /// Not a number at grazing angles.
@@ -96,6 +99,11 @@ impl<B: Bsdf> Bsdf for Mutant<B> {
     fn sample(&self, wo: Vec3A, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
         let m = self.mode(mode);
         let skew = if let Wrong::Skewed(power) = self.wrong { f64::from(power) } else { 1.0 };
+        let u_lobe = if let Wrong::Lobe(power) = self.wrong {
+            (f64::from(u_lobe).powf(f64::from(power)) as f32).min(1.0 - f32::EPSILON)
+        } else {
+            u_lobe
+        };
         let u = Vec2::new((f64::from(u.x).powf(skew) as f32).min(1.0 - f32::EPSILON), u.y);
         if self.wrong == Wrong::Fails && u.x < 0.1 {
             return None;
@@ -139,6 +147,36 @@ impl<B: Bsdf> Bsdf for Mutant<B> {
     }
 }
 
+/// Says the density of another surface, the weight to match.
+struct DensityOf {
+    right: Principled,
+    other: Principled,
+}
+
+impl Bsdf for DensityOf {
+    fn lobes(&self) -> Lobes {
+        self.right.lobes()
+    }
+
+    fn eval(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> Spectrum {
+        self.right.eval(wo, wi, mode)
+    }
+
+    fn pdf(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> f32 {
+        self.other.pdf(wo, wi, mode)
+    }
+
+    fn sample(&self, wo: Vec3A, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let s = self.right.sample(wo, u_lobe, u, mode)?;
+        let pdf = self.pdf(wo, s.wi, mode);
+        (pdf > 0.0).then(|| BsdfSample { pdf, weight: s.weight * (s.pdf / pdf), ..s })
+    }
+
+    fn at(&self) -> BsdfAt<'_> {
+        BsdfAt::Ref(self)
+    }
+}
+
 pub(crate) fn mutants() -> Vec<Case<'static>> {
     fn case<B: Bsdf + 'static>(name: &str, right: B, wrong: Wrong) -> Case<'static> {
         let mutant = Mutant { right, wrong };
@@ -149,7 +187,28 @@ pub(crate) fn mutants() -> Vec<Case<'static>> {
     let glass =
         |alpha| RoughDielectric { ggx: Ggx::anisotropic(alpha, alpha), ..RoughDielectric::new(0.5, 1.5) };
     let clear = SmoothDielectric::new(1.5);
+    // A metal of appendix B has the narrow lobe alone.
+    let metal = Principled::new(Spectrum::rgb(0.9, 0.6, 0.3), 1.0, 0.7);
+    let narrow = Principled { meaning: Meaning::GltfB, ..metal };
+    let plastic = Principled::new(Spectrum::rgb(0.8, 0.5, 0.2), 0.0, 0.4);
+    let pane = Principled { transmission: 0.5, ..plastic };
     vec![
+        Case::new("principled: density without the compensation's", move |b| {
+            check_bsdf(&DensityOf { right: metal, other: narrow }, b)
+        }),
+        Case::new("principled: density of another base", move |b| {
+            let other = Principled { base_color: Spectrum::gray(0.4), ..plastic };
+            check_bsdf(&DensityOf { right: plastic, other }, b)
+        }),
+        case("principled: base and highlight drawn too rarely", plastic, Wrong::Lobe(1.1)),
+        case("principled: transmission drawn too often", pane, Wrong::Lobe(1.1)),
+        case("principled: no eta²", pane, Wrong::NoEtaSquared),
+        case("principled: pdf 1 % too large, consistently", plastic, Wrong::Pdf(1.01)),
+        case("principled: weight 1 % too large", metal, Wrong::Weight(1.01)),
+        Case::new("principled: appendix B held to conserve energy", |b| {
+            let bright = Principled { meaning: Meaning::GltfB, ..Principled::new(Spectrum::ONE, 0.0, 0.3) };
+            check_bsdf(&bright, b)
+        }),
         case("lambert: pdf 1 % too large, consistently", lambert, Wrong::Pdf(1.01)),
         case("lambert: pdf 1 % too small, consistently", lambert, Wrong::Pdf(0.99)),
         case("gold: pdf 1 % too large, consistently", gold(0.3), Wrong::Pdf(1.01)),
