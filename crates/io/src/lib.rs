@@ -35,6 +35,8 @@ mod atomic;
 mod exr_out;
 #[allow(clippy::arithmetic_side_effects)]
 pub mod fallback;
+#[cfg(feature = "gltf")]
+mod gltf;
 mod limits;
 mod loaded;
 #[cfg(feature = "obj")]

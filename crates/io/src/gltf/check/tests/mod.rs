@@ -1,0 +1,11 @@
+// Time limits are what some of these tests are about.
+#![allow(clippy::disallowed_methods)]
+
+mod containers;
+mod contents;
+mod corpus;
+mod driver;
+mod hostile;
+mod scene;
+mod structure;
+mod surfaces;
