@@ -1,6 +1,6 @@
 //! Bytes to scenes and films to bytes: the only crate that knows file formats.
 //!
-//! Features: `obj` (OBJ and MTL in), `png` and `exr` (pictures out). A file can be wrong in any way and yields an
+//! Features: `obj` (OBJ and MTL in), `ply` (PLY meshes in), `png` and `exr` (pictures out). A file can be wrong in any way and yields an
 //! error that says where and what, or a picture with warnings in its report; it cannot crash the program, make it
 //! take memory that the file merely claims, or read outside the scene's folder. Pictures are written beside the
 //! target and renamed, so a target is old or new, never half.
@@ -42,6 +42,8 @@ mod loaded;
 #[cfg(feature = "obj")]
 #[allow(clippy::indexing_slicing, clippy::arithmetic_side_effects)]
 pub mod obj;
+#[cfg(feature = "ply")]
+pub mod ply;
 #[cfg(feature = "png")]
 mod png;
 mod resolver;
