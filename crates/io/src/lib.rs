@@ -40,7 +40,6 @@ mod gltf;
 mod limits;
 mod loaded;
 #[cfg(feature = "obj")]
-#[allow(clippy::indexing_slicing, clippy::arithmetic_side_effects)]
 pub mod obj;
 #[cfg(feature = "ply")]
 pub mod ply;
