@@ -6,6 +6,10 @@ pub(super) fn harmless(code: &str, pointer: &str) -> bool {
     if matches!(part, "animations" | "skins") {
         return true;
     }
+    // A node that is there twice is drawn twice, and what is below it four times: 2^n times in all.
+    if matches!(part, "nodes" | "scenes") && code == "DUPLICATE_ELEMENTS" {
+        return false;
+    }
     // What is clamped or left out, whereas a wrong count or offset is data that cannot be found.
     if matches!(part, "materials" | "extensions" | "samplers" | "cameras")
         && matches!(

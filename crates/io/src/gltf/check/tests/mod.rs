@@ -6,6 +6,7 @@ mod contents;
 mod corpus;
 mod driver;
 mod hostile;
+mod mutated;
 mod scene;
 mod structure;
 mod surfaces;

@@ -37,6 +37,15 @@ fn nodes_scenes_and_skins() {
 }
 
 #[test]
+fn doubled_children_are_not_harmless() {
+    for (pointer, value) in [("/nodes/3/children", json!([4, 4])), ("/scenes/0/nodes", json!([0, 2, 3, 3]))] {
+        let issues = structure(&with(&[(pointer, value)]));
+        let doubled = issues.iter().find(|i| i.code == "DUPLICATE_ELEMENTS").expect(pointer);
+        assert!(!doubled.harmless, "thirty such nodes in a row are a billion: {doubled}");
+    }
+}
+
+#[test]
 fn animations() {
     let sampler = "/animations/0/samplers/0";
     let channel = "/animations/0/channels/0";
