@@ -3,7 +3,8 @@
 //! Films as `.film` files, which keep every bit, name the samples they hold, and can be added up ([`FilmFile`]);
 //! pictures in ([`read_picture`], [`decode_texture`]) and out, and how far one is from another ([`compare`]).
 //!
-//! Features: `obj` (OBJ and MTL in), `png`, `hdr` and `exr` (pictures in and out). A file can be wrong in any way and yields an
+//! Features: `gltf` (glTF 2.0 in), `obj` (OBJ and MTL in), `ply` (PLY meshes in), `png`, `hdr` and `exr` (pictures in and out).
+//! A file can be wrong in any way and yields an
 //! error that says where and what, or a picture with warnings in its report; it cannot crash the program, make it
 //! take memory that the file merely claims, or read outside the scene's folder. Pictures are written beside the
 //! target and renamed, so a target is old or new, never half.
@@ -40,13 +41,16 @@ pub mod fallback;
 mod film;
 #[cfg(feature = "hdr")]
 mod hdr_out;
+#[cfg(feature = "gltf")]
+mod gltf;
 mod limits;
 mod loaded;
 #[cfg(feature = "obj")]
-#[allow(clippy::indexing_slicing, clippy::arithmetic_side_effects)]
 pub mod obj;
 #[cfg(any(feature = "gltf", feature = "obj", feature = "png", feature = "hdr", feature = "exr"))]
 mod picture;
+#[cfg(feature = "ply")]
+pub mod ply;
 #[cfg(feature = "png")]
 mod png;
 mod resolver;

@@ -17,8 +17,13 @@ type Counts = [u64; 3];
 
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-fn kind_of(key: &str) -> Option<usize> {
-    ["v", "vt", "vn"].iter().position(|&k| k == key)
+/// Counts a line's word, if it is one of the three.
+fn count(key: &str, counts: &mut Counts) {
+    for (kind, n) in ["v", "vt", "vn"].into_iter().zip(counts) {
+        if kind == key {
+            *n = n.saturating_add(1);
+        }
+    }
 }
 
 /// The part of a line before a comment. Only where no name can hold the character.
@@ -44,7 +49,7 @@ pub(crate) struct Dropped {
 
 impl Dropped {
     pub(crate) fn add(&mut self, line: usize, word: &str) {
-        self.count += 1;
+        self.count = self.count.saturating_add(1);
         if self.first.is_none() {
             self.first = Some((line, word.chars().take(20).collect()));
         }
@@ -52,7 +57,10 @@ impl Dropped {
 
     pub(crate) fn tell(&self, file: &str, what: &str, warnings: &mut Vec<String>) {
         if let Some((line, word)) = &self.first {
-            let more = if self.count > 1 { format!(" (and {} more)", self.count - 1) } else { String::new() };
+            let more = match self.count.saturating_sub(1) {
+                0 => String::new(),
+                more => format!(" (and {more} more)"),
+            };
             warnings.push(format!("{file}, line {line}{more}: {what}: '{word}'"));
         }
     }
@@ -60,33 +68,31 @@ impl Dropped {
 
 /// Cleans a whole file.
 pub(crate) fn clean(file: &str, text: &str, warnings: &mut Vec<String>) -> Result<Clean, ObjError> {
-    let (mut total, mut coloured) = (Counts::default(), 0);
+    let (mut total, mut coloured) = (Counts::default(), 0u64);
     for line in text.lines() {
-        if let Some(k) = kind_of(key_of(line)) {
-            total[k] += 1;
-            coloured += u64::from(k == 0 && is_coloured(line));
+        let key = key_of(line);
+        count(key, &mut total);
+        if key == "v" && is_coloured(line) {
+            coloured = coloured.saturating_add(1);
         }
     }
+    let [vertices, ..] = total;
     // The parser keeps colours in a list of their own: unless every vertex has one, they slip to other vertices.
-    let strip_colors = coloured > 0 && coloured < total[0];
+    let strip_colors = coloured > 0 && coloured < vertices;
     if strip_colors {
         warnings.push(format!(
-            "{file}: {coloured} of {} vertices have a colour; the colours are dropped",
-            total[0]
+            "{file}: {coloured} of {vertices} vertices have a colour; the colours are dropped"
         ));
     }
     let mut out = Clean { text: String::with_capacity(text.len()), used_materials: BTreeMap::new() };
     let (mut lines_and_points, mut short, mut unknown) = <(Dropped, Dropped, Dropped)>::default();
     let mut so_far = Counts::default();
-    for (i, line) in text.lines().enumerate() {
-        let number = i + 1;
+    for (number, line) in (1..).zip(text.lines()) {
         let refuse = |what: String| ObjError::syntax(file, number, what, line);
         let key = key_of(line);
         match key {
             "v" | "vt" | "vn" => {
-                if let Some(k) = kind_of(key) {
-                    so_far[k] += 1;
-                }
+                count(key, &mut so_far);
                 if key == "v" && is_coloured(line) {
                     let is_number = |w: &str| w.parse::<f32>().is_ok();
                     if !data(line).split_whitespace().skip(1).all(is_number) {

@@ -34,7 +34,9 @@ pub(crate) fn parse(
                         let (mut materials, places) = parse_bytes(part, &bytes, limits, warnings);
                         let before = all.0.len();
                         all.0.append(&mut materials);
-                        all.1.extend(places.into_iter().map(|(name, place)| (name, place + before)));
+                        all.1.extend(
+                            places.into_iter().map(|(name, place)| (name, before.saturating_add(place))),
+                        );
                     }
                     Err(e) => complain(e, warnings),
                 }
@@ -51,11 +53,11 @@ pub(crate) fn parse(
 fn parse_bytes(name: &str, bytes: &[u8], limits: &Limits, warnings: &mut Vec<String>) -> Library {
     let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let mut safe = String::with_capacity(text.len());
-    for (i, line) in text.lines().enumerate() {
+    for (number, line) in (1..).zip(text.lines()) {
         if line.len() > limits.line_bytes {
-            warnings.push(format!("{name}, line {}: too long; skipped", i + 1));
+            warnings.push(format!("{name}, line {number}: too long; skipped"));
         } else if let Err(why) = push_safe(line, &mut safe) {
-            warnings.push(format!("{name}, line {}: {why}; skipped: '{}'", i + 1, line.trim()));
+            warnings.push(format!("{name}, line {number}: {why}; skipped: '{}'", line.trim()));
         }
         safe.push('\n');
     }
@@ -118,6 +120,11 @@ impl<'a> Made<'a> {
 
     pub(crate) fn count(&self) -> usize {
         self.ids.len()
+    }
+
+    /// Pictures decoded.
+    pub(crate) fn images(&self) -> usize {
+        self.images.values().flatten().count()
     }
 
     /// The material of a model, made on first use. Index `None` or out of range is a plain gray; `colored` vertices

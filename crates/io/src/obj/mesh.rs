@@ -16,11 +16,11 @@ pub(crate) fn add(
     report: &mut ObjReport,
 ) -> Result<(), ObjError> {
     let m = &model.mesh;
-    let indices: Vec<[u32; 3]> = m.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
+    let indices: Vec<[u32; 3]> = m.indices.as_chunks().0.to_vec();
     if indices.is_empty() {
         return Ok(());
     }
-    let vec3 = |v: &[f32]| -> Vec<Vec3> { v.chunks_exact(3).map(|c| Vec3::new(c[0], c[1], c[2])).collect() };
+    let vec3 = |v: &[f32]| -> Vec<Vec3> { v.as_chunks().0.iter().copied().map(Vec3::from_array).collect() };
     let positions = vec3(&m.positions);
     let count = positions.len();
     let fail = |source| ObjError::Mesh { file: file.into(), object: model.name.clone(), source };
@@ -38,15 +38,15 @@ pub(crate) fn add(
     }
     if fits("texture coordinates", m.texcoords.len() / 2) {
         // OBJ counts v upward, pictures are stored from the top.
-        let uv = m.texcoords.chunks_exact(2).map(|c| Vec2::new(c[0], 1.0 - c[1])).collect();
+        let uv = m.texcoords.as_chunks().0.iter().map(|&[u, v]| Vec2::new(u, 1.0 - v)).collect();
         mesh = mesh.with_uv(0, uv).map_err(fail)?;
     }
     if fits("colours", m.vertex_color.len() / 3) {
-        let colors = m.vertex_color.chunks_exact(3).map(|c| Vec4::new(c[0], c[1], c[2], 1.0)).collect();
+        let colors = m.vertex_color.as_chunks().0.iter().map(|&[r, g, b]| Vec4::new(r, g, b, 1.0)).collect();
         mesh = mesh.with_colors(colors).map_err(fail)?;
     }
-    report.meshes += 1;
-    report.triangles += mesh.triangle_count();
+    report.meshes = report.meshes.saturating_add(1);
+    report.triangles = report.triangles.saturating_add(mesh.triangle_count());
     report.has_light |= add_geometry(Geometry::Mesh(Arc::new(mesh)), m.material_id, made, builder);
     Ok(())
 }

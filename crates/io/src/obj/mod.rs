@@ -12,7 +12,7 @@ use std::path::Path;
 use etendue_scene::SceneBuilder;
 
 use crate::resolver::read_file;
-use crate::{FolderResolver, Limits, ResolveError, Resolver};
+use crate::{FolderResolver, Limits, LoadReport, ResolveError, Resolver};
 
 /// Why an OBJ file is not a scene. `line` counts from 1.
 #[derive(Debug, thiserror::Error)]
@@ -78,10 +78,27 @@ pub struct ObjReport {
     pub triangles: usize,
     /// Materials added.
     pub materials: usize,
+    /// Images decoded.
+    pub images: usize,
     /// Whether something in the file emits light.
     pub has_light: bool,
     /// What was dropped or not understood, each with its place.
     pub warnings: Vec<String>,
+}
+
+impl From<ObjReport> for LoadReport {
+    fn from(report: ObjReport) -> Self {
+        Self {
+            meshes: report.meshes as u64,
+            triangles: report.triangles as u64,
+            instances: report.meshes as u64,
+            materials: report.materials as u64,
+            images: report.images as u64,
+            has_light: report.has_light,
+            warnings: report.warnings,
+            ..Self::default()
+        }
+    }
 }
 
 /// Adds an OBJ file to a scene. Materials and textures are looked for beside it and nowhere else.
@@ -134,6 +151,7 @@ pub fn read(
         mesh::add(name, model, &mut made, builder, &mut report)?;
     }
     report.materials = made.count();
+    report.images = made.images();
     report.warnings.append(&mut made.warnings);
     if report.triangles == 0 {
         return Err(ObjError::NoFaces { file: name.into() });

@@ -65,23 +65,23 @@ fn joined(name: &str, bytes: &[u8], limits: &Limits, warnings: &mut Vec<String>)
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut text = String::with_capacity(bytes.len());
     // Lines joined to the one before leave empty ones behind it, so that numbers do not shift.
-    let (mut owed, mut joining) = (0, false);
+    let (mut owed, mut joining) = (0usize, false);
     let mut unreadable = Dropped::default();
-    for (i, raw) in bytes.split(|&b| b == b'\n').enumerate() {
+    for (number, raw) in (1..).zip(bytes.split(|&b| b == b'\n')) {
         if raw.len() > limits.line_bytes {
-            return Err(ObjError::LineTooLong { file: name.into(), line: i + 1, limit: limits.line_bytes });
+            return Err(ObjError::LineTooLong { file: name.into(), line: number, limit: limits.line_bytes });
         }
         let raw = raw.strip_suffix(b"\r").unwrap_or(raw);
         let line = String::from_utf8_lossy(raw);
         if matches!(line, std::borrow::Cow::Owned(_)) {
-            unreadable.add(i + 1, line.trim());
+            unreadable.add(number, line.trim());
         }
-        if i > 0 && !joining {
+        if number > 1 && !joining {
             text.push('\n');
             text.extend(std::iter::repeat_n('\n', owed));
             owed = 0;
         } else if joining {
-            owed += 1;
+            owed = owed.saturating_add(1);
         }
         // A comment that ends in a folder's name is not meant to swallow the next line.
         let is_comment = !joining && line.trim_start().starts_with('#');
@@ -116,8 +116,8 @@ impl Lines<'_> {
 
 impl Read for Lines<'_> {
     fn read(&mut self, buf: &mut [u8]) -> std::io::Result<usize> {
-        let n = self.rest.len().min(buf.len());
-        buf[..n].copy_from_slice(&self.rest[..n]);
+        let mut rest = self.rest;
+        let n = rest.read(buf)?;
         self.consume(n);
         Ok(n)
     }
@@ -126,15 +126,15 @@ impl Read for Lines<'_> {
 impl BufRead for Lines<'_> {
     fn fill_buf(&mut self) -> std::io::Result<&[u8]> {
         // One line at a time, so that `consume` sees line ends where the parser does.
-        let end = self.rest.iter().position(|&b| b == b'\n').map_or(self.rest.len(), |i| i + 1);
-        Ok(&self.rest[..end])
+        Ok(self.rest.split_inclusive(|&b| b == b'\n').next().unwrap_or(&[]))
     }
 
     fn consume(&mut self, n: usize) {
         let (taken, rest) = self.rest.split_at(n.min(self.rest.len()));
         let ends = taken.iter().filter(|&&b| b == b'\n').count();
         // The last line may lack its end.
-        self.line += ends + usize::from(ends == 0 && rest.is_empty() && !taken.is_empty());
+        let last = usize::from(ends == 0 && rest.is_empty() && !taken.is_empty());
+        self.line = self.line.saturating_add(ends).saturating_add(last);
         self.rest = rest;
     }
 }
