@@ -39,10 +39,10 @@ pub mod compare;
 mod exr_out;
 pub mod fallback;
 mod film;
-#[cfg(feature = "hdr")]
-mod hdr_out;
 #[cfg(feature = "gltf")]
 mod gltf;
+#[cfg(feature = "hdr")]
+mod hdr_out;
 mod limits;
 mod loaded;
 #[cfg(feature = "obj")]
