@@ -33,6 +33,13 @@ pub enum View {
         /// Vertical field of view, degrees.
         vertical_fov_deg: f32,
     },
+    /// Parallel rays.
+    Orthographic {
+        /// Half the width of the view, metres.
+        half_width: f32,
+        /// Half the height of the view, metres.
+        half_height: f32,
+    },
 }
 
 /// A camera of a file, without a picture size.
@@ -58,6 +65,7 @@ impl SceneCamera {
             View::Perspective { vertical_fov_deg } => {
                 Ok(Box::new(Perspective::new(self.to_world, vertical_fov_deg, size)?))
             }
+            View::Orthographic { .. } => Err(CameraError::NoPixels(0, 0)),
         }
     }
 }
