@@ -33,7 +33,9 @@ pub mod prelude {
         Context, DirectLight, Integrator, PathTracer, Recorder, RenderOptions, Report, Roulette, Sample,
         render, replay,
     };
-    pub use etendue_light::{ConstantEnvironment, ImageEnvironment, Light, LightPicker, PointLight};
+    pub use etendue_light::{
+        ConstantEnvironment, DirectionalLight, ImageEnvironment, Light, LightPicker, PointLight, SpotLight,
+    };
     pub use etendue_material::{Diffuse, Glass, Material, Metal, NormalMapped, Principled};
     pub use etendue_sampling::{Dim, Independent, Sampler, Slot, Sobol, Stratified};
     pub use etendue_scene::{Emission, Scene, SceneBuilder};
