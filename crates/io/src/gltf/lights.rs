@@ -7,7 +7,7 @@
 
 use etendue_core::glam::{DMat3, DMat4};
 use etendue_core::{Spectrum, Transform, Vec3A, vector};
-use etendue_light::PointLight;
+use etendue_light::{DirectionalLight, PointLight, SpotLight};
 use etendue_scene::SceneBuilder;
 use gltf::json::camera::Type;
 use gltf::json::validation::Checked;
@@ -44,10 +44,12 @@ pub(super) fn add(doc: &Document<'_>, walked: &Walked, builder: &mut SceneBuilde
             }
             ("spot", Some(axis)) => {
                 let s = light.spot.clone().unwrap_or_default();
-                let _ = (axis, s);false
+                builder.light(SpotLight::new(position, axis, power, s.inner_cone_angle, s.outer_cone_angle));
+                true
             }
             ("directional", Some(axis)) => {
-let _ = axis; false
+                builder.light(DirectionalLight::new(axis, power));
+                true
             }
             _ => false,
         };
