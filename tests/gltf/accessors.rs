@@ -212,3 +212,31 @@ fn morph_targets_and_skins_stand_in_the_pose_of_the_file() {
     d.node(json!({"mesh": mesh, "skin": skin}));
     assert_eq!(covered(&d).len(), 200);
 }
+
+#[test]
+fn primitives_that_share_vertices_take_their_own() {
+    // A hundred triangles of three vertices each, out of one array of thirty thousand.
+    let mut d = Doc::new();
+    let all: Vec<[f32; 3]> = (0..30_000).map(|i| [(i % 100) as f32, (i / 100) as f32, 0.0]).collect();
+    let positions = d.floats(&all);
+    let mut primitives = Vec::new();
+    for i in 0..100u16 {
+        let corners = d.indices(&[i, i + 101, i + 200]);
+        primitives.push(json!({"attributes": {"POSITION": positions}, "indices": corners}));
+    }
+    let mesh = d.push("meshes", json!({"primitives": primitives}));
+    d.node(json!({"mesh": mesh}));
+    let r = read(&d);
+    assert_eq!(r.loaded.report.triangles, 100);
+    assert!(r.scene.report().memory.geometry < 100 * 200, "{}", r.scene.report().memory.geometry);
+}
+
+#[test]
+fn what_a_file_claims_without_bytes_is_not_allocated() {
+    let mut d = Doc::new();
+    let p = d.push("accessors", json!({"count": 1_000_000_000, "type": "VEC3", "componentType": 5126, "min": [0, 0, 0], "max": [0, 0, 0]}));
+    let mesh = d.push("meshes", json!({"primitives": [{"attributes": {"POSITION": p}}]}));
+    d.node(json!({"mesh": mesh}));
+    let e = crate::try_read(&d, &etendue::io::LoadOptions::default()).err().expect("refused").to_string();
+    assert!(e.contains("/accessors/0") && e.contains("without any bytes"), "{e}");
+}

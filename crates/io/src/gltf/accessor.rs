@@ -11,6 +11,11 @@ use super::document::Document;
 
 /// Elements that an accessor without any bytes may stand for beyond what the file's size vouches for.
 const FREE_ZEROS: u64 = 1 << 16;
+/// Elements that may be read beyond [`AGAIN`] for each byte of the file.
+const FREE_ELEMENTS: u64 = 1 << 24;
+/// How often a byte may be read again: many primitives may share an accessor, but a small file must not ask for the memory
+/// of a large one.
+const AGAIN: u64 = 8;
 
 /// Reads accessors of one document under its budget.
 pub(super) struct Accessors<'a> {
@@ -32,6 +37,22 @@ impl<'a> Elements<'a> {
         // The last element may be shorter than the stride.
         self.bytes.chunks(self.stride.max(1)).take(self.count).map(|c| c.get(..self.size).unwrap_or(&[]))
     }
+
+    /// Element `i`; nothing beyond the last.
+    fn at(&self, i: u32) -> &'a [u8] {
+        let start = (i as usize).checked_mul(self.stride).filter(|_| (i as usize) < self.count);
+        let range = start.and_then(|s| Some(s..s.checked_add(self.size)?));
+        range.and_then(|r| self.bytes.get(r)).unwrap_or(&[])
+    }
+}
+
+/// Which elements of an accessor are wanted.
+#[derive(Clone, Copy)]
+pub(super) enum Which<'a> {
+    /// All of them.
+    All,
+    /// These, ascending.
+    These(&'a [u32]),
 }
 
 /// One component as a number; normalised integers by the rules of the specification (section 3.6.2.2).
@@ -66,11 +87,16 @@ fn whole(bytes: &[u8]) -> u32 {
 
 impl<'a> Accessors<'a> {
     pub(super) fn new(doc: &'a Document<'a>) -> Self {
-        Self { doc, left: Cell::new(doc.limits().vertices) }
+        let worth = doc.bytes().saturating_mul(AGAIN).saturating_add(FREE_ELEMENTS);
+        Self { doc, left: Cell::new(doc.limits().vertices.min(worth)) }
     }
 
     /// Vectors of `N` components, of whatever kind they are stored as.
-    pub(super) fn floats<const N: usize>(&self, index: Index<Accessor>) -> Result<Vec<[f32; N]>, GltfError> {
+    pub(super) fn floats<const N: usize>(
+        &self,
+        index: Index<Accessor>,
+        which: Which<'_>,
+    ) -> Result<Vec<[f32; N]>, GltfError> {
         let (a, kind) = self.open(index, components(N))?;
         let read = |bytes: &[u8]| {
             let mut out = [0.0; N];
@@ -79,25 +105,33 @@ impl<'a> Accessors<'a> {
             }
             out
         };
-        self.read(index, a, kind, N, [0.0; N], read)
+        self.read(index, a, kind, which, N, [0.0; N], read)
     }
 
     /// Colours: three or four components, alpha 1 where there is none.
-    pub(super) fn colors(&self, index: Index<Accessor>) -> Result<Vec<[f32; 4]>, GltfError> {
+    pub(super) fn colors(
+        &self,
+        index: Index<Accessor>,
+        which: Which<'_>,
+    ) -> Result<Vec<[f32; 4]>, GltfError> {
         if self.is(index, Type::Vec3) {
-            return Ok(self.floats::<3>(index)?.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect());
+            return Ok(self.floats::<3>(index, which)?.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect());
         }
-        self.floats::<4>(index)
+        self.floats::<4>(index, which)
     }
 
     /// Whole numbers.
     pub(super) fn indices(&self, index: Index<Accessor>) -> Result<Vec<u32>, GltfError> {
         let (a, kind) = self.open(index, &[Type::Scalar])?;
-        self.read(index, a, kind, 1, 0, whole)
+        self.read(index, a, kind, Which::All, 1, 0, whole)
     }
 
     /// Four whole numbers each: joints.
-    pub(super) fn joints(&self, index: Index<Accessor>) -> Result<Vec<[u32; 4]>, GltfError> {
+    pub(super) fn joints(
+        &self,
+        index: Index<Accessor>,
+        which: Which<'_>,
+    ) -> Result<Vec<[u32; 4]>, GltfError> {
         let (a, kind) = self.open(index, &[Type::Vec4])?;
         let read = |bytes: &[u8]| {
             let mut out = [0; 4];
@@ -106,7 +140,34 @@ impl<'a> Accessors<'a> {
             }
             out
         };
-        self.read(index, a, kind, 4, [0; 4], read)
+        self.read(index, a, kind, which, 4, [0; 4], read)
+    }
+
+    /// How many elements an accessor says it has.
+    pub(super) fn count(&self, index: Index<Accessor>) -> u64 {
+        self.doc.root.accessors.get(index.value()).map_or(0, |a| a.count.0)
+    }
+
+    /// Whether the elements that an accessor claims are there, without reading them.
+    pub(super) fn vouch<const N: usize>(&self, index: Index<Accessor>) -> Result<(), GltfError> {
+        let (a, kind) = self.open(index, components(N))?;
+        match a.buffer_view {
+            Some(view) => {
+                let offset = a.byte_offset.unwrap_or_default().0;
+                let size = kind.size().saturating_mul(N);
+                self.elements(index, view.value(), offset, size, a.count.0).map(|_| ())
+            }
+            None => self.zeros(index, a.count.0),
+        }
+    }
+
+    /// Zeros that no bytes stand for: the file must be worth them.
+    fn zeros(&self, index: Index<Accessor>, count: u64) -> Result<(), GltfError> {
+        if count > self.doc.bytes().saturating_add(FREE_ZEROS) {
+            let what = format!("it claims {count} elements without any bytes behind them");
+            return Err(self.fail(index, what));
+        }
+        Ok(())
     }
 
     fn is(&self, index: Index<Accessor>, wanted: Type) -> bool {
@@ -141,61 +202,76 @@ impl<'a> Accessors<'a> {
         Ok((a, kind.0))
     }
 
+    #[allow(clippy::too_many_arguments)]
     fn read<T: Clone>(
         &self,
         index: Index<Accessor>,
         a: &Accessor,
         kind: ComponentType,
+        which: Which<'_>,
         components: usize,
         zero: T,
         read: impl Fn(&[u8]) -> T,
     ) -> Result<Vec<T>, GltfError> {
-        let left = self.left.get();
-        let Some(rest) = left.checked_sub(a.count.0) else {
-            return Err(GltfError::Limit {
-                file: self.doc.name.into(),
-                pointer: format!("/accessors/{}", index.value()),
-                what: "elements",
-                asked: a.count.0,
-                limit: left,
-            });
+        let asked = match which {
+            Which::All => a.count.0,
+            Which::These(places) => places.len() as u64,
         };
-        self.left.set(rest);
+        self.take(index, asked)?;
         let size = kind.size().saturating_mul(components);
         let mut out = Vec::new();
-        let mut reserve = |n: u64| {
-            out.try_reserve_exact(usize::try_from(n).unwrap_or(usize::MAX))
-                .map_err(|_| self.fail(index, format!("its {n} elements do not fit in memory")))
+        let mut reserve = || {
+            out.try_reserve_exact(usize::try_from(asked).unwrap_or(usize::MAX))
+                .map_err(|_| self.fail(index, format!("its {asked} elements do not fit in memory")))
         };
         match a.buffer_view {
             Some(view) => {
                 let offset = a.byte_offset.unwrap_or_default().0;
                 let elements = self.elements(index, view.value(), offset, size, a.count.0)?;
-                reserve(a.count.0)?;
-                out.extend(elements.iter().map(&read));
+                reserve()?;
+                match which {
+                    Which::All => out.extend(elements.iter().map(&read)),
+                    Which::These(places) => out.extend(places.iter().map(|&i| read(elements.at(i)))),
+                }
             }
             None => {
-                // Zeros that no bytes stand for: the file must be worth them.
-                let vouched = self.doc.bytes().saturating_add(FREE_ZEROS);
-                if a.count.0 > vouched {
-                    let what = format!("it claims {} elements without any bytes behind them", a.count.0);
-                    return Err(self.fail(index, what));
-                }
-                reserve(a.count.0)?;
-                out.resize(usize::try_from(a.count.0).unwrap_or(0), zero);
+                self.zeros(index, asked)?;
+                reserve()?;
+                out.resize(usize::try_from(asked).unwrap_or(0), zero);
             }
         }
         if let Some(s) = &a.sparse {
-            self.overwrite(index, s, size, &read, &mut out)?;
+            self.overwrite(index, s, a.count.0, which, size, &read, &mut out)?;
         }
         Ok(out)
     }
 
+    /// Takes elements out of the budget.
+    fn take(&self, index: Index<Accessor>, asked: u64) -> Result<(), GltfError> {
+        let left = self.left.get();
+        match left.checked_sub(asked) {
+            Some(rest) => {
+                self.left.set(rest);
+                Ok(())
+            }
+            None => Err(GltfError::Limit {
+                file: self.doc.name.into(),
+                pointer: format!("/accessors/{}", index.value()),
+                what: "elements more",
+                asked,
+                limit: left,
+            }),
+        }
+    }
+
     /// Puts sparse values where they belong.
+    #[allow(clippy::too_many_arguments)]
     fn overwrite<T>(
         &self,
         index: Index<Accessor>,
         s: &sparse::Sparse,
+        count: u64,
+        which: Which<'_>,
         size: usize,
         read: impl Fn(&[u8]) -> T,
         out: &mut [T],
@@ -204,17 +280,22 @@ impl<'a> Accessors<'a> {
             return Err(self.fail(index, "its sparse indices are of no known type".into()));
         };
         let (at, values) = (&s.indices, &s.values);
+        self.take(index, s.count.0)?;
         let places =
             self.elements(index, at.buffer_view.value(), at.byte_offset.0, kind.0.size(), s.count.0)?;
         let values =
             self.elements(index, values.buffer_view.value(), values.byte_offset.0, size, s.count.0)?;
         for (place, value) in places.iter().map(whole).zip(values.iter()) {
-            match out.get_mut(place as usize) {
-                Some(slot) => *slot = read(value),
-                None => {
-                    let message = format!("its sparse index {place} is beyond its {} elements", out.len());
-                    return Err(self.fail(index, message));
-                }
+            if u64::from(place) >= count {
+                let message = format!("its sparse index {place} is beyond its {count} elements");
+                return Err(self.fail(index, message));
+            }
+            let slot = match which {
+                Which::All => Some(place as usize),
+                Which::These(wanted) => wanted.binary_search(&place).ok(),
+            };
+            if let Some(slot) = slot.and_then(|i| out.get_mut(i)) {
+                *slot = read(value);
             }
         }
         Ok(())

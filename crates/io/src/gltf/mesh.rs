@@ -7,7 +7,7 @@ use gltf::json::Index;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 
-use super::accessor::Accessors;
+use super::accessor::{Accessors, Which};
 use super::document::Document;
 use super::{GltfError, skin, tangents};
 
@@ -56,6 +56,21 @@ impl Vertices {
         for uv in &mut self.uv {
             pick(uv, sources);
         }
+    }
+
+    /// Numbers the corners anew if many of the `count` vertices are not used; the ones that are, ascending.
+    fn only_used(&mut self, count: usize) -> Option<Vec<u32>> {
+        if self.triangles.len().saturating_mul(3) >= count {
+            return None;
+        }
+        let mut used: Vec<u32> = self.triangles.iter().flatten().copied().collect();
+        used.sort_unstable();
+        used.dedup();
+        for corner in self.triangles.iter_mut().flatten() {
+            let place = used.binary_search(corner).ok().and_then(|i| u32::try_from(i).ok());
+            *corner = place.unwrap_or(u32::MAX);
+        }
+        Some(used)
     }
 
     /// Moves one vertex with its normal and tangent.
@@ -145,51 +160,47 @@ pub(super) fn build(
     let fail = |message: String| doc.unusable(pointer.into(), message);
     let attribute = |s: Semantic| p.attributes.get(&Checked::Valid(s)).copied();
     let Some(positions) = attribute(Semantic::Positions) else { return Ok(None) };
-    let mut v = Vertices { positions: accessors.floats::<3>(positions)?, ..Vertices::default() };
-    let count = v.positions.len();
-    let fits = |what: &str, n: usize| {
-        if n == count { Ok(()) } else { Err(fail(format!("it has {n} {what} for {count} vertices"))) }
-    };
-    v.triangles = triangles(accessors, p, count)?.into_iter().collect();
+    let count = usize::try_from(accessors.count(positions)).unwrap_or(usize::MAX);
+    accessors.vouch::<3>(positions)?;
+    let mut v = Vertices { triangles: triangles(accessors, p, count)?, ..Vertices::default() };
     if v.triangles.is_empty() {
         return Ok(None);
     }
     if let Some(&index) = v.triangles.iter().flatten().find(|&&i| i as usize >= count) {
         return Err(fail(format!("index {index} is beyond the {count} vertices")));
     }
-    if !v.triangles.iter().flatten().all(|&i| is_finite(&v, i)) && !doc.options.lenient {
-        return Err(fail(
-            "a vertex is not a finite number; a lenient load (--lenient) leaves its triangles out".into(),
-        ));
+    // Primitives may share the vertices of a whole scene: each takes its own.
+    let used = v.only_used(count);
+    let which = used.as_deref().map_or(Which::All, Which::These);
+    let fits = |what: &str, index: Index<_>| match accessors.count(index) {
+        n if n == count as u64 => Ok(index),
+        n => Err(fail(format!("it has {n} {what} for {count} vertices"))),
+    };
+    v.positions = accessors.floats::<3>(positions, which)?;
+    if !v.positions.iter().flatten().all(|c| c.is_finite()) && !doc.options.lenient {
+        let message = "a vertex is not a finite number; a lenient load (--lenient) leaves its triangles out";
+        return Err(fail(message.into()));
     }
     if let Some(index) = attribute(Semantic::Normals) {
-        v.normals = accessors.floats::<3>(index)?;
-        fits("normals", v.normals.len())?;
+        v.normals = accessors.floats::<3>(fits("normals", index)?, which)?;
     }
     for &set in &wanted.sets {
-        let uv = match attribute(Semantic::TexCoords(set)) {
-            Some(index) => accessors.floats::<2>(index)?,
+        v.uv.push(match attribute(Semantic::TexCoords(set)) {
+            Some(index) => accessors.floats::<2>(fits("texture coordinates", index)?, which)?,
             None => Vec::new(),
-        };
-        if !uv.is_empty() {
-            fits("texture coordinates", uv.len())?;
-        }
-        v.uv.push(uv);
+        });
     }
     if let Some(index) = attribute(Semantic::Colors(0)) {
-        v.colors = accessors.colors(index)?;
-        fits("colours", v.colors.len())?;
+        v.colors = accessors.colors(fits("colours", index)?, which)?;
     }
     // Given tangents belong to given normals.
-    if let Some(index) =
-        attribute(Semantic::Tangents).filter(|_| wanted.tangents_of.is_some() && !v.normals.is_empty())
-    {
-        v.tangents = accessors.floats::<4>(index)?;
-        fits("tangents", v.tangents.len())?;
+    let needs_tangents = wanted.tangents_of.is_some() && !v.normals.is_empty();
+    if let Some(index) = attribute(Semantic::Tangents).filter(|_| needs_tangents) {
+        v.tangents = accessors.floats::<4>(fits("tangents", index)?, which)?;
     }
-    apply_targets(accessors, p, weights, &mut v)?;
+    apply_targets(accessors, p, weights, which, &mut v)?;
     if let Pose::Skinned(joints) = pose {
-        apply_skin(accessors, p, joints, &mut v)?;
+        apply_skin(accessors, p, joints, which, &mut v)?;
     }
     if let Some(set) = wanted.tangents_of.filter(|_| v.tangents.is_empty()) {
         make_tangents(&mut v, wanted, set);
@@ -198,10 +209,6 @@ pub(super) fn build(
         v.bake(m);
     }
     v.into_mesh().map(Some).map_err(|e| fail(e.to_string()))
-}
-
-fn is_finite(v: &Vertices, i: u32) -> bool {
-    v.positions.get(i as usize).is_some_and(|p| p.iter().all(|c| c.is_finite()))
 }
 
 fn make_tangents(v: &mut Vertices, wanted: &Wanted, set: u32) {
@@ -217,10 +224,12 @@ fn apply_targets(
     accessors: &Accessors<'_>,
     p: &Primitive,
     weights: &[f32],
+    which: Which<'_>,
     v: &mut Vertices,
 ) -> Result<(), GltfError> {
     for (target, &weight) in p.targets.iter().flatten().zip(weights).filter(|(_, w)| **w != 0.0) {
-        let read = |index: Option<Index<_>>| index.map_or(Ok(Vec::new()), |i| accessors.floats::<3>(i));
+        let read =
+            |index: Option<Index<_>>| index.map_or(Ok(Vec::new()), |i| accessors.floats::<3>(i, which));
         skin::morph(v, weight, &read(target.positions)?, &read(target.normals)?);
     }
     Ok(())
@@ -230,13 +239,15 @@ fn apply_skin(
     accessors: &Accessors<'_>,
     p: &Primitive,
     joints: &[DMat4],
+    which: Which<'_>,
     v: &mut Vertices,
 ) -> Result<(), GltfError> {
     let attribute = |s: Semantic| p.attributes.get(&Checked::Valid(s)).copied();
     let (Some(j), Some(w)) = (attribute(Semantic::Joints(0)), attribute(Semantic::Weights(0))) else {
         return Ok(());
     };
-    let influences: Vec<_> = accessors.joints(j)?.into_iter().zip(accessors.floats::<4>(w)?).collect();
+    let influences: Vec<_> =
+        accessors.joints(j, which)?.into_iter().zip(accessors.floats::<4>(w, which)?).collect();
     skin::pose(v, joints, &influences);
     Ok(())
 }

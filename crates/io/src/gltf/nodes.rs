@@ -5,7 +5,7 @@ use gltf::json::Index;
 use gltf::json::scene::Node;
 
 use super::GltfError;
-use super::accessor::Accessors;
+use super::accessor::{Accessors, Which};
 use super::document::Document;
 use super::extensions::{self, GpuInstancing, NodeLight, Visibility};
 
@@ -162,9 +162,9 @@ fn copies(node: &Node, to_world: DMat4, accessors: &Accessors<'_>) -> Result<Vec
         return Ok(vec![to_world]);
     };
     let a = gpu.attributes;
-    let t = a.translation.map(|i| accessors.floats::<3>(Index::new(i))).transpose()?;
-    let r = a.rotation.map(|i| accessors.floats::<4>(Index::new(i))).transpose()?;
-    let s = a.scale.map(|i| accessors.floats::<3>(Index::new(i))).transpose()?;
+    let t = a.translation.map(|i| accessors.floats::<3>(Index::new(i), Which::All)).transpose()?;
+    let r = a.rotation.map(|i| accessors.floats::<4>(Index::new(i), Which::All)).transpose()?;
+    let s = a.scale.map(|i| accessors.floats::<3>(Index::new(i), Which::All)).transpose()?;
     let lengths = [t.as_ref().map(Vec::len), r.as_ref().map(Vec::len), s.as_ref().map(Vec::len)];
     let count = lengths.into_iter().flatten().min().unwrap_or(0);
     Ok((0..count)

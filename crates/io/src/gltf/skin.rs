@@ -3,7 +3,7 @@
 use etendue_core::glam::{DMat4, DVec3};
 
 use super::GltfError;
-use super::accessor::Accessors;
+use super::accessor::{Accessors, Which};
 use super::document::Document;
 use super::mesh::Vertices;
 
@@ -18,7 +18,7 @@ pub(super) fn joints(
         return Err(doc.unusable(format!("/skins/{skin}"), "there is no such skin".into()));
     };
     let bind = match skin.inverse_bind_matrices {
-        Some(index) => accessors.floats::<16>(index)?,
+        Some(index) => accessors.floats::<16>(index, Which::All)?,
         None => Vec::new(),
     };
     let of = |(i, joint): (usize, &gltf::json::Index<gltf::json::Node>)| {
