@@ -44,6 +44,7 @@ mod gltf;
 #[cfg(feature = "hdr")]
 mod hdr_out;
 mod limits;
+mod load;
 mod loaded;
 #[cfg(feature = "obj")]
 pub mod obj;
@@ -66,6 +67,7 @@ pub use film::{
 #[cfg(feature = "hdr")]
 pub use hdr_out::write_hdr;
 pub use limits::Limits;
+pub use load::{LoadError, LoadOptions, MaterialMeaning, load_scene};
 pub use loaded::{LoadReport, Loaded, SceneCamera, View};
 #[cfg(any(feature = "gltf", feature = "obj", feature = "png", feature = "hdr", feature = "exr"))]
 pub use picture::{ImageBudget, Picture, PictureError, decode_texture, read_picture, read_picture_bytes};
