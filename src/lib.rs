@@ -22,7 +22,7 @@ pub use etendue_texture as texture;
 /// What most programs use, in one import.
 pub mod prelude {
     pub use etendue_bsdf::{Bsdf, BsdfAt, BsdfSample, Lobes, Mode};
-    pub use etendue_camera::{Camera, CameraSample, Film, Filter, Perspective, Planes};
+    pub use etendue_camera::{Camera, CameraSample, Film, Filter, Orthographic, Perspective, Planes};
     pub use etendue_core::{
         CancelFlag, Frame, Needs, Origin, Progress, Ray, Spectrum, Transform, UVec2, Vec2, Vec3, Vec3A, Vec4,
     };
@@ -33,7 +33,9 @@ pub mod prelude {
         Context, DirectLight, Integrator, PathTracer, Recorder, RenderOptions, Report, Roulette, Sample,
         render, replay,
     };
-    pub use etendue_light::{ConstantEnvironment, ImageEnvironment, Light, LightPicker, PointLight};
+    pub use etendue_light::{
+        ConstantEnvironment, DirectionalLight, ImageEnvironment, Light, LightPicker, PointLight, SpotLight,
+    };
     pub use etendue_material::{Diffuse, Glass, Material, Metal, NormalMapped, Principled};
     pub use etendue_sampling::{Dim, Independent, Sampler, Slot, Sobol, Stratified};
     pub use etendue_scene::{Emission, Scene, SceneBuilder};

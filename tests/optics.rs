@@ -203,3 +203,30 @@ fn a_mirror_shows_a_light_exactly() {
         }
     }
 }
+
+/// An orthographic picture covers pixels by area alone: a quad and a sphere are as large at any distance and place.
+#[test]
+fn parallel_rays_show_true_sizes() {
+    let camera =
+        etendue::camera::Orthographic::look_at(Vec3A::ZERO, Vec3A::NEG_Z, Vec3A::Y, 2.0, UVec2::new(60, 40));
+    let camera = camera.unwrap();
+    let pixel = 4.0 / 40.0;
+    for z in [-1.0f32, -50.0] {
+        let shapes: [(Geometry, f64); 2] = [
+            (
+                Parallelogram::new(Vec3A::new(1.1, -1.3, z), Vec3A::X * 0.7, Vec3A::Y * 0.5).unwrap().into(),
+                0.35,
+            ),
+            (Sphere::new(Vec3A::new(-1.2, 0.6, z), 0.6).unwrap().into(), PI * 0.36),
+        ];
+        for (shape, area) in shapes {
+            let mut b = SceneBuilder::new();
+            lamp(&mut b, shape);
+            let options = RenderOptions { filter: Filter::BOX, ..RenderOptions::default() };
+            let film = film_of(&b.build().unwrap(), &camera, Sobol::new(2, 256), &options);
+            let covered: f64 = film.to_rgb().iter().map(|c| f64::from(c[1])).sum();
+            let truth = area / (pixel * pixel);
+            assert!((covered / truth - 1.0).abs() < 2e-3, "z {z}: {covered} for {truth}");
+        }
+    }
+}

@@ -26,6 +26,14 @@ pub enum CameraError {
         /// Focus distance asked for, metres.
         focus: f32,
     },
+    /// A picture of no size in the world.
+    #[error("an extent of {half_width} x {half_height} metres from the middle is not positive and finite")]
+    Extent {
+        /// Half of the width asked for, metres.
+        half_width: f32,
+        /// Half of the height asked for, metres.
+        half_height: f32,
+    },
     /// The placement is no placement.
     #[error("the camera's placement: {0}")]
     Placement(#[from] TransformError),

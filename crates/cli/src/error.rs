@@ -19,8 +19,8 @@ pub(crate) enum CliError {
     Interrupted(String),
     #[error(transparent)]
     Load(#[from] LoadError),
-    #[error("the scene cannot be built: {0}")]
-    Scene(#[from] SceneError),
+    #[error("{path}: the scene cannot be built: {source}")]
+    Scene { path: PathBuf, source: SceneError },
     #[error(transparent)]
     Camera(#[from] CameraError),
     #[error("'--env {path}': {source}")]

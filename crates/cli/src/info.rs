@@ -1,4 +1,4 @@
-use etendue::io::{Limits, LoadOptions, View, load_scene, read_film, read_picture};
+use etendue::io::{Limits, LoadOptions, View, load_scene, read_film, read_picture, scene_endings};
 use etendue::scene::SceneBuilder;
 use serde_json::{Value, json};
 
@@ -16,7 +16,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let ending = args.file.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     let value = match ending.as_str() {
         _ if is_film(&args.file) => film(args)?,
-        "obj" | "gltf" | "glb" | "ply" => scene(args)?,
+        known if scene_endings().contains(&known) => scene(args)?,
         _ => picture(args)?,
     };
     tell("", &value)?;
@@ -29,17 +29,18 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
 fn scene(args: &InfoArgs) -> Result<Value, CliError> {
     let mut builder = SceneBuilder::new();
     let loaded = load_scene(&args.file, &LoadOptions::default(), &mut builder)?;
-    let scene = builder.build()?;
+    let scene = builder.build().map_err(|source| CliError::Scene { path: args.file.clone(), source })?;
     let (found, built) = (&loaded.report, scene.report());
     let cameras: Vec<Value> = loaded
         .cameras
         .iter()
         .map(|c| {
-            let fov = match c.view {
-                View::Perspective { vertical_fov_deg } => Some(vertical_fov_deg),
-                _ => None,
+            let [fov, height] = match c.view {
+                View::Perspective { vertical_fov_deg } => [Some(vertical_fov_deg), None],
+                View::Orthographic { half_height, .. } => [None, Some(2.0 * half_height)],
+                _ => [None, None],
             };
-            json!({ "name": c.name, "aspect": c.aspect, "vertical_fov_deg": fov })
+            json!({ "name": c.name, "aspect": c.aspect, "vertical_fov_deg": fov, "height": height })
         })
         .collect();
     let bounds = scene.bounds();

@@ -40,7 +40,7 @@ mod exr_out;
 pub mod fallback;
 mod film;
 #[cfg(feature = "gltf")]
-mod gltf;
+pub mod gltf;
 #[cfg(feature = "hdr")]
 mod hdr_out;
 mod limits;
@@ -67,7 +67,7 @@ pub use film::{
 #[cfg(feature = "hdr")]
 pub use hdr_out::write_hdr;
 pub use limits::Limits;
-pub use load::{LoadError, LoadOptions, MaterialMeaning, load_scene};
+pub use load::{LoadError, LoadOptions, load_scene, scene_endings};
 pub use loaded::{LoadReport, Loaded, SceneCamera, View};
 #[cfg(any(feature = "gltf", feature = "obj", feature = "png", feature = "hdr", feature = "exr"))]
 pub use picture::{ImageBudget, Picture, PictureError, decode_texture, read_picture, read_picture_bytes};

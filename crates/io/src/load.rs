@@ -1,81 +1,106 @@
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use etendue_bsdf::Meaning;
+use etendue_core::Progress;
 use etendue_scene::SceneBuilder;
 
 use crate::{Limits, Loaded};
 
-/// What the numbers of a file's materials mean.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum MaterialMeaning {
-    /// glTF's appendix B, to the letter.
-    GltfB,
-    /// Our energy-preserving reading of it.
-    #[default]
-    Default,
+/// How a scene file is read.
+pub struct LoadOptions<'a> {
+    /// What a file may ask for.
+    pub limits: Limits,
+    /// What glTF's materials mean.
+    pub materials: Meaning,
+    /// The set of materials to show, by its name in `KHR_materials_variants`; `None` for the file's own.
+    pub variant: Option<String>,
+    /// Whether faults that do not stop a picture are warnings, and what is broken is left out.
+    pub lenient: bool,
+    /// May stop the load.
+    pub progress: &'a dyn Progress,
 }
 
-/// How a scene file is read.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct LoadOptions {
-    /// What it may ask for.
-    pub limits: Limits,
-    /// What its materials mean.
-    pub materials: MaterialMeaning,
-    /// Which of its variants to show, by name.
-    pub variant: Option<String>,
-    /// Leaves out what is broken, with a warning, instead of refusing the file.
-    pub lenient: bool,
+impl Default for LoadOptions<'_> {
+    fn default() -> Self {
+        Self {
+            limits: Limits::default(),
+            materials: Meaning::default(),
+            variant: None,
+            lenient: false,
+            progress: &(),
+        }
+    }
 }
 
 /// Why a file is not a scene.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// Another kind of file.
-    #[error("{path}: the ending '{ending}' names no kind of scene; .obj is read")]
-    Unknown {
+    /// An ending that no built-in format has.
+    #[error("'{file}': the ending '{ending}' is not one of {known}")]
+    Format {
         /// The file.
-        path: PathBuf,
+        file: String,
         /// Its ending.
         ending: String,
+        /// The endings that are.
+        known: String,
     },
-    /// A kind of scene that this build does not read.
-    #[error("{path}: '.{ending}' scenes are not built in; convert it to .obj")]
-    NotBuilt {
-        /// The file.
-        path: PathBuf,
-        /// Its ending.
-        ending: String,
-    },
-    /// What is wrong with an OBJ file.
+    /// A glTF file.
+    #[cfg(feature = "gltf")]
+    #[error(transparent)]
+    Gltf(#[from] crate::gltf::GltfError),
+    /// An OBJ file.
     #[cfg(feature = "obj")]
     #[error(transparent)]
     Obj(#[from] crate::obj::ObjError),
+    /// A PLY file.
+    #[cfg(feature = "ply")]
+    #[error(transparent)]
+    Ply(#[from] crate::ply::PlyError),
 }
 
-/// Adds the scene of a file to a builder, by the file's ending.
+/// The endings of scene files that are built in.
+pub fn scene_endings() -> Vec<&'static str> {
+    let mut all = Vec::new();
+    if cfg!(feature = "gltf") {
+        all.extend(["gltf", "glb"]);
+    }
+    if cfg!(feature = "obj") {
+        all.push("obj");
+    }
+    if cfg!(feature = "ply") {
+        all.push("ply");
+    }
+    all
+}
+
+/// Adds a scene file to a builder, by its ending.
 ///
 /// # Errors
-/// [`LoadError`], naming the file, the place in it, and what to do.
+/// [`LoadError`], naming file and place.
 pub fn load_scene(
     path: &Path,
-    options: &LoadOptions,
+    options: &LoadOptions<'_>,
     builder: &mut SceneBuilder,
 ) -> Result<Loaded, LoadError> {
-    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    // Which arms there are depends on the features.
+    let _ = (&options, &builder);
     match ending.as_str() {
-        "obj" => obj(path, options, builder),
-        "gltf" | "glb" | "ply" => Err(LoadError::NotBuilt { path: path.into(), ending }),
-        _ => Err(LoadError::Unknown { path: path.into(), ending }),
+        #[cfg(feature = "gltf")]
+        "gltf" | "glb" => Ok(crate::gltf::load(path, options, builder)?),
+        #[cfg(feature = "obj")]
+        "obj" => {
+            let report = crate::obj::load(path, &options.limits, builder)?.into();
+            Ok(Loaded { cameras: Vec::new(), report })
+        }
+        #[cfg(feature = "ply")]
+        "ply" => Ok(crate::ply::load(path, &options.limits, builder)?),
+        _ => Err(LoadError::Format {
+            file: path.display().to_string(),
+            ending,
+            known: scene_endings().iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(", "),
+        }),
     }
-}
-
-#[cfg(feature = "obj")]
-fn obj(path: &Path, options: &LoadOptions, builder: &mut SceneBuilder) -> Result<Loaded, LoadError> {
-    Ok(Loaded { cameras: Vec::new(), report: crate::obj::load(path, &options.limits, builder)?.into() })
-}
-
-#[cfg(not(feature = "obj"))]
-fn obj(path: &Path, _: &LoadOptions, _: &mut SceneBuilder) -> Result<Loaded, LoadError> {
-    Err(LoadError::NotBuilt { path: path.into(), ending: "obj".into() })
 }

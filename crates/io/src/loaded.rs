@@ -1,4 +1,4 @@
-use etendue_camera::{Camera, CameraError, Perspective};
+use etendue_camera::{Camera, CameraError, Orthographic, Perspective};
 use etendue_core::{Transform, UVec2};
 
 /// What came out of a scene file, and what did not.
@@ -33,6 +33,13 @@ pub enum View {
         /// Vertical field of view, degrees.
         vertical_fov_deg: f32,
     },
+    /// Parallel rays. A picture of another shape than the extent has pixels that are not square.
+    Orthographic {
+        /// Half of the width that is seen, metres (glTF's `xmag`).
+        half_width: f32,
+        /// Half of the height that is seen, metres (glTF's `ymag`).
+        half_height: f32,
+    },
 }
 
 /// A camera of a file, without a picture size.
@@ -52,11 +59,14 @@ impl SceneCamera {
     /// The camera for a picture of this size.
     ///
     /// # Errors
-    /// What the camera refuses: no pixels, an impossible field of view.
+    /// What the camera refuses: no pixels, an impossible field of view or extent.
     pub fn at_size(&self, size: UVec2) -> Result<Box<dyn Camera>, CameraError> {
         match self.view {
             View::Perspective { vertical_fov_deg } => {
                 Ok(Box::new(Perspective::new(self.to_world, vertical_fov_deg, size)?))
+            }
+            View::Orthographic { half_width, half_height } => {
+                Ok(Box::new(Orthographic::stretched(self.to_world, half_width, half_height, size)?))
             }
         }
     }

@@ -17,7 +17,7 @@
 //!
 //! | light | parts | sampled by |
 //! |---|---|---|
-//! | [`PointLight`] | 1 | nothing to draw |
+//! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | 1 | nothing to draw |
 //! | [`MeshLight`] | its triangles | solid angle, or area where that is very small or nearly a hemisphere |
 //! | [`ParallelogramLight`] | 1 | solid angle if it is a rectangle, else area |
 //! | [`SphereLight`] | 1 | the cone it fills |
@@ -28,13 +28,14 @@
 //! Where a point uses only one side of its surface ([`Sides::Same`]), lights return no directions from behind it and
 //! report zero density for them; that mass is lost, not moved elsewhere.
 //!
-//! Limits: nothing moves; no spot lights or measured emission profiles.
+//! Limits: nothing moves; no measured emission profiles.
 //!
 //! Place in the workspace: above `core`, `sampling`, `geometry` and `texture`; scenes hold lights, integrators ask them.
 
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN has to take the refusing branch")]
 
 mod constant_environment;
+mod directional;
 mod emitter;
 mod error;
 mod image_environment;
@@ -49,8 +50,11 @@ mod picker_uniform;
 mod point;
 mod shape;
 mod sphere;
+mod spot;
+mod unpicked;
 
 pub use constant_environment::ConstantEnvironment;
+pub use directional::DirectionalLight;
 pub use error::EnvironmentError;
 pub use image_environment::ImageEnvironment;
 pub use light::{Light, LightBounds, LightId, LightSample, LitPoint, Sides};
@@ -63,3 +67,5 @@ pub use picker_uniform::UniformPicker;
 pub use point::PointLight;
 pub use shape::ShapeLight;
 pub use sphere::SphereLight;
+pub use spot::SpotLight;
+pub use unpicked::Unpicked;

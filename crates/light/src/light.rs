@@ -94,7 +94,7 @@ pub trait Light: Send + Sync {
     fn pdf(&self, at: &LitPoint, part: u32, wi: Vec3A, seen: Option<&Surface>) -> f32;
 
     /// Emitted power, W; for a light at infinity the power that enters a sphere of `scene_radius` (metres). Zero only
-    /// if the part truly emits nothing.
+    /// if the part truly emits nothing, or is to be left to rays ([`Unpicked`](crate::Unpicked)).
     fn power(&self, part: u32, scene_radius: f32) -> Spectrum;
 
     /// Place and cone; `None` for a light at infinity.
@@ -112,7 +112,7 @@ pub trait Light: Send + Sync {
         Spectrum::BLACK
     }
 
-    /// Whether rays that leave the scene can meet this light.
+    /// Whether rays that leave the scene can meet this light: not so for a single direction, which has no extent.
     fn is_infinite(&self) -> bool {
         false
     }

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use etendue_bvh::{Accel, BuildError, BuildOptions, Instance, TreeAccel, World};
 use etendue_core::{Aabb, Needs, Progress, Transform};
 use etendue_geometry::Geometry;
-use etendue_light::{Light, LightId, LightPicker, PowerPicker, SinglePicker};
+use etendue_light::{Light, LightPicker, PowerPicker, SinglePicker};
 use etendue_material::Material;
 use etendue_texture::Tex;
 
@@ -148,6 +148,9 @@ impl SceneBuilder {
     }
 
     /// Makes geometry emit. Every placement of it becomes a light.
+    ///
+    /// Where its material has an opacity, what it lets through it does not emit either, and rays alone find it: right
+    /// in every mode, and noisier than a light that is sampled.
     pub fn emit(&mut self, geometry: GeomId, emission: Emission) {
         match self.emission.get_mut(geometry.0 as usize) {
             Some(slot) => *slot = Some(emission),
@@ -258,12 +261,11 @@ impl SceneBuilder {
         };
         let radius = accel.bounds().radius();
         let picking_radius = picking_radius(radius, &emitters.lights);
+        let (picked, only) = emitters.picked();
         let picker = match self.picker.take() {
             Some(make) => make(&emitters.lights, picking_radius),
             // One light of one part needs no choice.
-            None if report.light_parts == 1 => {
-                Some(Box::new(SinglePicker::new(LightId { light: 0, part: 0 })) as Box<dyn LightPicker>)
-            }
+            None if picked == 1 => Some(Box::new(SinglePicker::new(only)) as Box<dyn LightPicker>),
             None => PowerPicker::new(&emitters.lights, picking_radius)
                 .map(|p| Box::new(p) as Box<dyn LightPicker>),
         };

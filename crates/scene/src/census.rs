@@ -59,16 +59,16 @@ pub(crate) fn take(
         needs |= Needs::INSTANCES;
         report.instances = world.instances.len() as u64;
     }
-    for light in &emitters.lights {
+    for (light, left_to_rays) in emitters.lights.iter().zip(&emitters.unpicked) {
         needs |= light.needs() | Needs::LIGHTS;
         if light.is_infinite() {
             needs |= Needs::ENVIRONMENT;
         }
-        if !light.is_delta() {
+        if !light.is_delta() && !left_to_rays {
             needs |= Needs::AREA_LIGHTS;
         }
     }
-    if report.light_parts > 1 {
+    if emitters.picked().0 > 1 {
         needs |= Needs::MANY_LIGHTS;
     }
     report.needs = needs;

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use etendue_core::{Fingerprint, Needs, Transform};
 use etendue_geometry::{Geometry, Shape};
-use etendue_light::{Light, MeshLight, ParallelogramLight, ShapeLight, SphereLight};
+use etendue_light::{Light, LightId, MeshLight, ParallelogramLight, ShapeLight, SphereLight, Unpicked};
 use etendue_texture::Texture;
 
 use crate::{Emission, SceneBuilder, SceneError, SceneReport};
@@ -15,6 +15,8 @@ pub(crate) struct Emitters {
     /// By light: whether rays of the scene can find it at all. Delta lights, lights that are no surface of the
     /// scene, and surfaces that no ray sees can only be sampled.
     pub(crate) found_by_rays: Vec<bool>,
+    /// By light: whether it is never sampled, because a ray has to decide about its holes.
+    pub(crate) unpicked: Vec<bool>,
     /// Light of geometry that stands in the world itself, by geometry id; empty when nothing emits.
     direct: Vec<Option<u32>>,
     /// (geometry, light) pairs per instance, ascending; empty when nothing instanced emits.
@@ -22,6 +24,13 @@ pub(crate) struct Emitters {
 }
 
 impl Emitters {
+    /// The parts that a picker chooses among: how many, and the first.
+    pub(crate) fn picked(&self) -> (u64, LightId) {
+        let picked = || self.lights.iter().zip(&self.unpicked).enumerate().filter(|(_, (_, left))| !**left);
+        let parts = picked().map(|(_, (l, _))| u64::from(l.parts())).sum();
+        (parts, LightId { light: picked().next().map_or(0, |(i, _)| i as u32), part: 0 })
+    }
+
     /// The light that this surface is part of.
     #[inline]
     pub(crate) fn of(&self, inst: u32, geom: u32) -> Option<u32> {
@@ -54,6 +63,7 @@ pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emit
         lights: Vec::new(),
         infinite: Vec::new(),
         found_by_rays: Vec::new(),
+        unpicked: Vec::new(),
         direct: Vec::new(),
         instanced: Vec::new(),
     };
@@ -65,12 +75,16 @@ pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emit
             return Err(SceneError::BadEmission { geom: geom as u32 });
         }
         let material = &b.materials[b.geom_materials[geom] as usize];
-        if material.needs().contains(Needs::CUTOUTS) {
-            let why = "its material has an opacity; split the emitting part from the cut-out part";
+        if material.needs().contains(Needs::CUTOUTS) && b.masks[geom] == 0 {
+            let why = "its material has an opacity, so that rays alone find its light, and no ray sees it";
             return Err(SceneError::CannotEmit { geom: geom as u32, why });
         }
     }
-    let mut keep = |light: Arc<dyn Light>, seen: bool| -> Option<u32> {
+    let has_holes = |geom: u32| {
+        let material = &b.materials[b.geom_materials[geom as usize] as usize];
+        material.needs().contains(Needs::CUTOUTS)
+    };
+    let mut keep = |light: Arc<dyn Light>, seen: bool, holes: bool| -> Option<u32> {
         // The radius only scales; any positive one tells zero from nonzero.
         if (0..light.parts()).all(|p| light.power(p, 1.0).is_black()) {
             report.zero_power_lights += 1;
@@ -80,21 +94,22 @@ pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emit
             out.infinite.push(out.lights.len() as u32);
         }
         out.found_by_rays.push(seen && !light.is_delta());
-        out.lights.push(light);
+        out.unpicked.push(holes);
+        out.lights.push(if holes { Arc::new(Unpicked(light)) } else { light });
         Some(out.lights.len() as u32 - 1)
     };
     for (i, light) in b.lights.iter().enumerate() {
         if light.is_infinite() && light.parts() != 1 {
             return Err(SceneError::PartsAtInfinity { light: i, parts: light.parts() });
         }
-        keep(light.clone(), light.is_infinite());
+        keep(light.clone(), light.is_infinite(), false);
     }
     if b.emission.iter().any(Option::is_some) {
         out.direct = vec![None; b.geometries.len()];
         for &geom in &b.direct {
             if let Some(e) = &b.emission[geom as usize] {
                 let light = light_of(&b.geometries[geom as usize], geom, None, e)?;
-                out.direct[geom as usize] = keep(light, b.masks[geom as usize] != 0);
+                out.direct[geom as usize] = keep(light, b.masks[geom as usize] != 0, has_holes(geom));
             }
         }
         if b.instances.iter().any(|i| i.geoms.iter().any(|&g| b.emission[g as usize].is_some())) {
@@ -105,7 +120,7 @@ pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emit
                         let geometry = &b.geometries[geom as usize];
                         let light = light_of(geometry, geom, Some(&instance.to_world), e)?;
                         let seen = b.masks[geom as usize] & instance.mask != 0;
-                        pairs.extend(keep(light, seen).map(|l| (geom, l)));
+                        pairs.extend(keep(light, seen, has_holes(geom)).map(|l| (geom, l)));
                     }
                 }
                 pairs.sort_unstable();

@@ -132,8 +132,12 @@ impl Probe<'_> {
         judge.require(delta, "delta", || {
             format!("{s:?} of a light whose is_delta is {}", self.light.is_delta())
         })?;
-        judge.require(s.end.is_none() == self.light.is_infinite(), "end", || {
-            format!("{:?} of a light whose is_infinite is {}", s.end, self.light.is_infinite())
+        let bounds = self.light.bounds(self.part);
+        judge.require(s.end.is_none() == bounds.is_none(), "end", || {
+            format!("{:?} of a light whose place is {bounds:?}", s.end)
+        })?;
+        judge.require(!self.light.is_infinite() || bounds.is_none(), "bounds", || {
+            format!("{bounds:?} of a light at infinity")
         })?;
         let Some(end) = s.end else { return Ok(()) };
         let span = end.p - at.p;
@@ -142,7 +146,7 @@ impl Probe<'_> {
         let slack = (vector::length(end.p) + vector::length(at.p)) * 1e-6 + distance * 1e-5;
         let off = vector::length(span - s.wi * distance);
         judge.require(off <= slack, "end", || format!("{} lies {off} beside the direction", end.p))?;
-        let Some(b) = self.light.bounds(self.part) else { return Ok(()) };
+        let Some(b) = bounds else { return Ok(()) };
         let inside = end.p.cmpge(b.bounds.lo - slack).all() && end.p.cmple(b.bounds.hi + slack).all();
         judge.require(inside, "bounds", || format!("{} outside of {:?}", end.p, b.bounds))?;
         let leaves = f64::from(b.axis.dot(-s.wi)).clamp(-1.0, 1.0).acos();
@@ -284,17 +288,17 @@ fn whole_power(
     judge: &mut Judge,
 ) -> Result<(), Failure> {
     let (light, part) = (probe.light, probe.part);
-    let bounds = light.bounds(part).map(|b| b.bounds).filter(|b| !b.is_empty() && b.is_finite());
-    let (center, radius) = match bounds {
+    let place = light.bounds(part).map(|b| b.bounds);
+    let (center, radius) = match place {
+        Some(b) if b.is_empty() || !b.is_finite() => return Ok(()),
         Some(b) => (b.center(), if b.radius() > 0.0 { 2.0 * b.radius() } else { 1.0 }),
-        None if light.is_infinite() => (Vec3A::ZERO, 1.0),
-        None => return Ok(()),
+        None => (Vec3A::ZERO, 1.0),
     };
     let mut flux = Moments::default();
     for _ in 0..budget.samples(SAMPLES) {
         let out = warp::sphere(random.pair());
         // At infinity all points see the same; half of the directions enter at each.
-        let at = lit_point(center + out * radius, if light.is_infinite() { out } else { -out });
+        let at = lit_point(center + out * radius, if place.is_none() { out } else { -out });
         let s = light.sample(&at, part, random.pair());
         flux.add(s.map_or(0.0, |s| f64::from(s.li.mean()) * f64::from(cosine(&at, s.wi)) / f64::from(s.pdf)));
     }

@@ -7,8 +7,9 @@ use std::sync::Arc;
 use etendue_core::{Ray, Spectrum, Transform, Vec2, Vec3A, vector};
 use etendue_geometry::{Geometry, Parallelogram, Shape, Sphere, Surface, presets};
 use etendue_light::{
-    ConstantEnvironment, ImageEnvironment, Light, LightId, LightPicker, LitPoint, MeshLight,
-    ParallelogramLight, PointLight, PowerPicker, ShapeLight, Sides, SinglePicker, SphereLight, UniformPicker,
+    ConstantEnvironment, DirectionalLight, ImageEnvironment, Light, LightId, LightPicker, LitPoint,
+    MeshLight, ParallelogramLight, PointLight, PowerPicker, ShapeLight, Sides, SinglePicker, SphereLight,
+    SpotLight, UniformPicker,
 };
 use etendue_scene::{Emission, Scene, SceneBuilder};
 use etendue_testkit::{check_light, check_picker, lit_point};
@@ -88,8 +89,25 @@ fn lights() -> Vec<Case<'static>> {
         l.two_sided = true;
         l
     };
+    let spot = |name: &str, inner: f32, outer: f32| {
+        let light = SpotLight::new(
+            Vec3A::new(0.1, 0.5, 0.0),
+            Vec3A::new(-0.2, -2.0, 0.1),
+            Spectrum::rgb(1.0, 2.0, 3.0),
+            inner,
+            outer,
+        );
+        without_surface(name, light)
+    };
     let mut out = vec![
         without_surface("point", PointLight::new(Vec3A::new(0.1, 0.5, 0.0), Spectrum::rgb(1.0, 2.0, 3.0))),
+        spot("spot", 0.3, 1.2),
+        spot("spot with a hard edge", 0.5, 0.5),
+        spot("spot all around", 2.0, 4.0),
+        without_surface(
+            "directional",
+            DirectionalLight::new(Vec3A::new(0.2, -3.0, 0.4), Spectrum::gray(2.0)),
+        ),
         without_surface("constant environment", ConstantEnvironment::new(Spectrum::rgb(0.5, 1.0, 2.0))),
         without_surface("sky", sky(0.0)),
         without_surface("turned sky", sky(0.7)),

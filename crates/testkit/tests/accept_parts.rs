@@ -3,7 +3,7 @@
 mod support;
 
 use etendue_bvh::World;
-use etendue_camera::{Camera, Perspective};
+use etendue_camera::{Camera, Orthographic, Perspective};
 use etendue_core::{Aabb, Ray, Spectrum, Transform, UVec2, Vec2, Vec3A};
 use etendue_geometry::{Parallelogram, Plane, Shape, ShapeHit, ShapeSample, Sphere, Surface};
 use etendue_integrator::{DirectLight, PathTracer, Roulette};
@@ -45,6 +45,10 @@ fn cameras() -> Vec<Case<'static>> {
         ("pinhole, 150°", Box::new(of(150.0))),
         ("pinhole far away", Box::new(far)),
         ("lens", Box::new(of(40.0).with_lens(0.05, 3.0).expect("a lens"))),
+        ("orthographic", Box::new(Orthographic::new(place, 2.0, size).expect("a camera"))),
+        ("orthographic, not square", {
+            Box::new(Orthographic::stretched(place, 0.3, 200.0, size).expect("a camera"))
+        }),
         ("one pixel", Box::new(of(60.0).with_resolution(UVec2::ONE).expect("a pixel"))),
     ];
     all.into_iter().map(|(name, camera)| Case::new(name, move |b| check_camera(&*camera, b))).collect()

@@ -30,7 +30,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
-    /// The scene: .gltf, .glb, .obj
+    /// The scene: .gltf .glb .obj .ply
     pub(crate) scene: PathBuf,
     /// Output by ending: .exr .png .hdr .film; may repeat [default: SCENE's name with .png, in the working folder]
     #[arg(short, long = "output", value_name = "OUT")]

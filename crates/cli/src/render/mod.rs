@@ -55,19 +55,22 @@ fn in_pool(
     // Read first: a film that is damaged should not cost the time to load a scene.
     let resumed: Option<FilmFile> =
         args.resume.as_ref().map(|path| read_film(path, &film_limits())).transpose()?;
-    let mut prepared = prepare::load(args)?;
+    let nothing = || CliError::Interrupted("nothing was rendered or written yet".into());
+    let mut prepared = match prepare::load(args, interrupt) {
+        Err(_) if interrupt.requested() => return Err(nothing()),
+        loaded => loaded?,
+    };
     let load = watch.lap();
     prepared.warnings.dedup();
     for warning in &prepared.warnings {
         say(&format!("warning: {warning}"));
     }
-    let nothing = || CliError::Interrupted("nothing was rendered or written yet".into());
     if interrupt.requested() {
         return Err(nothing());
     }
     let scene = match std::mem::take(&mut prepared.builder).build_with_progress(interrupt) {
         Err(_) if interrupt.requested() => return Err(nothing()),
-        built => built?,
+        built => built.map_err(|source| CliError::Scene { path: args.scene.clone(), source })?,
     };
     let build = watch.lap();
 

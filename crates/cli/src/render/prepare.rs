@@ -1,10 +1,10 @@
 use std::path::Path;
 
+use etendue::bsdf::Meaning;
 use etendue::camera::Camera;
 use etendue::core::UVec2;
 use etendue::io::{
-    ImageBudget, Limits, LoadOptions, Loaded, MaterialMeaning, PictureError, SceneCamera, decode_texture,
-    fallback, load_scene,
+    ImageBudget, Limits, LoadOptions, Loaded, PictureError, SceneCamera, decode_texture, fallback, load_scene,
 };
 use etendue::light::ImageEnvironment;
 use etendue::scene::SceneBuilder;
@@ -12,6 +12,7 @@ use etendue::texture::Encoding;
 
 use crate::args::{Materials, RenderArgs};
 use crate::error::CliError;
+use crate::session::Interrupt;
 
 /// Pixels across where nobody says how many, and down where no camera does.
 const SIZE: UVec2 = UVec2::new(640, 480);
@@ -29,16 +30,17 @@ pub(crate) struct Prepared {
     pub(crate) skipped: Vec<String>,
 }
 
-pub(crate) fn load(args: &RenderArgs) -> Result<Prepared, CliError> {
+pub(crate) fn load(args: &RenderArgs, interrupt: &Interrupt) -> Result<Prepared, CliError> {
     let mut builder = SceneBuilder::new();
     let options = LoadOptions {
         limits: Limits::default(),
         materials: match args.materials {
-            Materials::GltfB => MaterialMeaning::GltfB,
-            Materials::Default => MaterialMeaning::Default,
+            Materials::GltfB => Meaning::GltfB,
+            Materials::Default => Meaning::default(),
         },
         variant: args.variant.clone(),
         lenient: args.lenient,
+        progress: interrupt,
     };
     let Loaded { cameras, report } = load_scene(&args.scene, &options, &mut builder)?;
     let mut warnings = report.warnings;

@@ -1,7 +1,8 @@
 use etendue_core::{Origin, Ray, Spectrum, Vec2, Vec3A, vector};
 use etendue_geometry::{Parallelogram, Shape, Surface};
 use etendue_light::{
-    ConstantEnvironment, Light, LightBounds, LightSample, LitPoint, ParallelogramLight, Sides,
+    ConstantEnvironment, DirectionalLight, Light, LightBounds, LightSample, LitPoint, ParallelogramLight,
+    Sides, SpotLight,
 };
 use etendue_testkit::{check_light, lit_point};
 use etendue_texture::Tex;
@@ -149,6 +150,39 @@ impl Light for Sky {
     }
 }
 
+/// A light of one direction at a time with another power, cone or end than it has.
+struct Delta<L> {
+    right: L,
+    power: f32,
+    cone: Option<f32>,
+    end: Option<Origin>,
+}
+
+impl<L: Light> Light for Delta<L> {
+    fn sample(&self, at: &LitPoint, part: u32, u: Vec2) -> Option<LightSample> {
+        let s = self.right.sample(at, part, u)?;
+        Some(LightSample { end: self.end.or(s.end), ..s })
+    }
+
+    fn pdf(&self, at: &LitPoint, part: u32, wi: Vec3A, seen: Option<&Surface>) -> f32 {
+        self.right.pdf(at, part, wi, seen)
+    }
+
+    fn power(&self, part: u32, scene_radius: f32) -> Spectrum {
+        self.right.power(part, scene_radius) * self.power
+    }
+
+    fn bounds(&self, part: u32) -> Option<LightBounds> {
+        let mut b = self.right.bounds(part)?;
+        b.cos_emission = self.cone.unwrap_or(b.cos_emission);
+        Some(b)
+    }
+
+    fn is_delta(&self) -> bool {
+        true
+    }
+}
+
 pub(crate) fn mutants() -> Vec<Case<'static>> {
     let points = [
         lit_point(Vec3A::new(0.1, -1.0, 0.2), Vec3A::Y),
@@ -168,7 +202,33 @@ pub(crate) fn mutants() -> Vec<Case<'static>> {
     let by_area = case("", Wrong::Skewed(1.0));
     assert!((by_area.check)(&etendue_testkit::Budget::default()).is_ok(), "so is sampling the area");
     let sky = Sky(ConstantEnvironment::new(Spectrum::ONE));
+    let sun = || DirectionalLight::new(Vec3A::new(0.2, -3.0, 0.4), Spectrum::gray(2.0));
+    let spot = || SpotLight::new(Vec3A::Y, Vec3A::NEG_Y, Spectrum::ONE, 0.3, 1.2);
+    fn delta<L: Light + 'static>(name: &str, mutant: Delta<L>, points: [LitPoint; 2]) -> Case<'static> {
+        Case::new(name, move |b| check_light(&mutant, 0, &points, &|_| None, b))
+    }
+    let free = Some(Origin::free(Vec3A::ZERO));
     vec![
+        delta(
+            "a sun of three quarters of its power",
+            Delta { right: sun(), power: 0.75, cone: None, end: None },
+            points,
+        ),
+        delta(
+            "a sun that stands somewhere",
+            Delta { right: sun(), power: 1.0, cone: None, end: free },
+            points,
+        ),
+        delta(
+            "a spot of three quarters of its power",
+            Delta { right: spot(), power: 0.75, cone: None, end: None },
+            points,
+        ),
+        delta(
+            "a spot with the cone of its full intensity",
+            Delta { right: spot(), power: 1.0, cone: Some(0.955), end: None },
+            points,
+        ),
         case("density 2 % too large", Wrong::Pdf(1.02)),
         case("density 2 % too small", Wrong::Pdf(0.98)),
         case("pdf() says 2 % more than sample", Wrong::PdfCall(1.02)),

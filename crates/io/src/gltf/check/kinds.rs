@@ -63,8 +63,6 @@ impl std::fmt::Display for Range {
 /// What a property must be.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Kind {
-    /// Anything; checked elsewhere or not at all.
-    Any,
     Bool,
     Text,
     /// A string of a list; others are for later versions.

@@ -30,10 +30,10 @@ mod tests;
 use serde_json::Value;
 
 pub(crate) use data::{Bytes, data};
-pub(crate) use glb::{Glb, glb};
+pub(crate) use glb::glb;
 pub(crate) use picture::image;
 pub(crate) use report::{Issue, Severity};
-pub(crate) use text::{Text, text};
+pub(crate) use text::text;
 
 /// Checks a document by itself: the JSON schema and how its parts refer to one another.
 pub(crate) fn structure(root: &Value) -> Vec<Issue> {

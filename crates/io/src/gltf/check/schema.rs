@@ -62,7 +62,6 @@ impl<'v> Walk<'v, '_> {
 
     fn value(&mut self, value: &'v Value, kind: Kind, at: &At<'_>) {
         match kind {
-            Kind::Any => {}
             Kind::Bool if value.is_boolean() => {}
             Kind::Bool => self.mismatch(value, "true or false", at),
             Kind::Text if value.is_string() => {}
