@@ -65,7 +65,7 @@ fn every_file_is_answered_within_its_limits() {
     let endings = ["gltf", "glb", "obj", "ply", "exr", "hdr", "png", "jpg", "jpeg"];
     let mut all = Vec::new();
     files(&corpus, &endings, &mut all);
-    assert!(all.len() > 900, "only {} files", all.len());
+    assert!(all.len() > 800, "only {} files", all.len());
     let taken = all.iter().filter(|path| accepted(path, &info(path))).count();
     println!("{} files: {taken} taken, {} refused", all.len(), all.len() - taken);
 }

@@ -73,5 +73,5 @@ pub use loaded::{LoadReport, Loaded, SceneCamera, View};
 pub use picture::{ImageBudget, Picture, PictureError, decode_texture, read_picture, read_picture_bytes};
 #[cfg(feature = "png")]
 pub use png::write_png;
-pub use resolver::{FolderResolver, NoFiles, ResolveError, Resolver};
+pub use resolver::{FolderResolver, NoFiles, ResolveError, Resolver, read_bytes};
 pub use tonemap::ToneMap;

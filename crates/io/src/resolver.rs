@@ -1,6 +1,8 @@
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
+use crate::Limits;
+
 /// Why a file that a scene names is not read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -85,6 +87,14 @@ impl Resolver for FolderResolver {
         }
         read_file(&path, name, limit)
     }
+}
+
+/// The bytes of a file that the user named, not a scene: anywhere, but regular and within `Limits::file_bytes`.
+///
+/// # Errors
+/// [`ResolveError`], naming the file.
+pub fn read_bytes(path: &Path, limits: &Limits) -> Result<Vec<u8>, ResolveError> {
+    read_file(path, &path.display().to_string(), limits.file_bytes)
 }
 
 /// A regular file of at most `limit` bytes, opened, and its length.

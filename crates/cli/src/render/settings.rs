@@ -1,0 +1,135 @@
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use etendue::camera::{Filter, Planes};
+use etendue::core::UVec2;
+use etendue::integrator::PathTracer;
+
+use super::prepare::Prepared;
+use crate::args::{Aov, IntegratorName, Materials, RenderArgs, SamplerName};
+use crate::error::CliError;
+
+/// Samples per pixel where nobody says how many.
+const SPP: u32 = 64;
+/// As many as will never be reached.
+const UNLIMITED: u32 = 1 << 30;
+
+/// How the samples are made, all flags read.
+#[derive(Clone, Debug)]
+pub(crate) struct Settings {
+    pub(crate) spp: u32,
+    /// Sample indices to draw.
+    pub(crate) indices: Range<u64>,
+    pub(crate) seed: u64,
+    pub(crate) sampler: SamplerName,
+    pub(crate) integrator: IntegratorName,
+    pub(crate) tracer: PathTracer,
+    pub(crate) filter: Filter,
+    pub(crate) planes: Planes,
+    /// Seconds.
+    pub(crate) time: Option<f64>,
+    materials: Materials,
+    reference: bool,
+}
+
+impl Settings {
+    pub(crate) fn of(args: &RenderArgs) -> Result<Self, CliError> {
+        let spp = match (args.spp, args.time) {
+            (Some(n), _) => n,
+            (None, None) => SPP,
+            (None, Some(_)) => {
+                if args.sampler == SamplerName::Stratified || args.shard.is_some() {
+                    let why = "'--sampler stratified' and '--shard' divide a number of samples";
+                    return Err(CliError::Usage(format!("{why}; give it with '--spp' beside '--time'")));
+                }
+                UNLIMITED
+            }
+        };
+        let indices = args.shard.map_or(0..u64::from(spp), |s| s.indices(spp));
+        if let Some(shard) = args.shard.filter(|_| indices.is_empty()) {
+            let cure = format!("{spp} samples per pixel make at most {spp} parts");
+            return Err(CliError::Usage(format!("'--shard {shard}' has no samples: {cure}")));
+        }
+        let max_depth = match args.integrator {
+            IntegratorName::Path => args.max_depth,
+            IntegratorName::Direct => Some(args.max_depth.unwrap_or(1).min(1)),
+        };
+        let has = |aov: Aov| args.aov.contains(&aov);
+        Ok(Self {
+            spp,
+            indices,
+            seed: args.seed,
+            sampler: args.sampler,
+            integrator: args.integrator,
+            tracer: PathTracer { max_depth, ..PathTracer::default() },
+            filter: args.filter,
+            planes: Planes {
+                albedo: has(Aov::Albedo),
+                normal: has(Aov::Normal),
+                depth: has(Aov::Depth),
+                ids: has(Aov::Ids),
+                alpha: has(Aov::Alpha),
+            },
+            time: args.time,
+            materials: args.materials,
+            reference: args.reference,
+        })
+    }
+
+    /// What is biased, of what the integrator names: that `direct` stops after one scattering event is what it is.
+    pub(crate) fn bias(&self, named: Vec<String>) -> Vec<String> {
+        let by_design = self.integrator == IntegratorName::Direct && self.tracer.max_depth == Some(1);
+        named.into_iter().filter(|b| !(by_design && b.starts_with("max_depth="))).collect()
+    }
+
+    pub(crate) fn size_of(&self, prepared: &Prepared) -> UVec2 {
+        prepared.camera.resolution()
+    }
+
+    pub(crate) fn sampler_word(&self) -> String {
+        match self.sampler {
+            SamplerName::Sobol => "sobol".into(),
+            SamplerName::Stratified => format!("stratified of {}", self.spp),
+            SamplerName::Independent => "independent".into(),
+        }
+    }
+
+    pub(crate) fn integrator_word(&self) -> &'static str {
+        match self.integrator {
+            IntegratorName::Path => "path",
+            IntegratorName::Direct => "direct",
+        }
+    }
+
+    pub(crate) fn filter_word(&self) -> String {
+        match self.filter {
+            Filter::Box { radius } => format!("box:{radius}"),
+            Filter::Tent { radius } => format!("tent:{radius}"),
+            Filter::Gaussian { radius, .. } => format!("gaussian:{radius}"),
+            Filter::Mitchell { radius, .. } => format!("mitchell:{radius}"),
+        }
+    }
+
+    /// The settings as a film keeps them, so that two films that differ can say in what. Nothing that parts of one
+    /// picture may differ in is among them.
+    pub(crate) fn words(&self, prepared: &Prepared) -> BTreeMap<String, String> {
+        let size = self.size_of(prepared);
+        let depth = self.tracer.max_depth.map_or("none".to_owned(), |d| d.to_string());
+        let mut words = vec![
+            ("program", format!("etendue {}", env!("CARGO_PKG_VERSION"))),
+            ("scene", prepared.scene_name.clone()),
+            ("camera", prepared.camera_name.clone()),
+            ("size", format!("{}x{}", size.x, size.y)),
+            ("integrator", self.integrator_word().into()),
+            ("max-depth", depth),
+            ("sampler", self.sampler_word()),
+            ("seed", self.seed.to_string()),
+            ("filter", self.filter_word()),
+            ("materials", if self.materials == Materials::GltfB { "gltf-b" } else { "default" }.into()),
+            ("reference", if self.reference { "yes" } else { "no" }.into()),
+        ];
+        words.extend(prepared.environment.iter().map(|e| ("env", e.clone())));
+        words.extend(prepared.variant.iter().map(|v| ("variant", v.clone())));
+        words.into_iter().map(|(k, v)| (k.to_owned(), v)).collect()
+    }
+}
