@@ -33,7 +33,8 @@ fn one_quad_in_every_container() {
     assert_eq!(plain.len(), 400);
     let mut b = SceneBuilder::new();
     let options = etendue::io::LoadOptions::default();
-    let loaded = etendue::io::gltf::read("a.glb", &d.glb(), &etendue::io::NoFiles, &options, &mut b).expect("glb");
+    let loaded =
+        etendue::io::gltf::read("a.glb", &d.glb(), &etendue::io::NoFiles, &options, &mut b).expect("glb");
     assert_eq!((loaded.report.triangles, loaded.report.meshes), (2, 1));
     let folder = std::env::temp_dir().join(format!("etendue-gltf-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("folder");
@@ -83,7 +84,8 @@ fn points_and_lines_are_left_out_and_said_so() {
     let d = with(|d, mesh| d.json["meshes"][mesh]["primitives"][0]["mode"] = json!(1));
     let mut b = SceneBuilder::new();
     let options = etendue::io::LoadOptions::default();
-    let loaded = etendue::io::gltf::read("a", &d.gltf(), &etendue::io::NoFiles, &options, &mut b).expect("valid");
+    let loaded =
+        etendue::io::gltf::read("a", &d.gltf(), &etendue::io::NoFiles, &options, &mut b).expect("valid");
     assert_eq!(loaded.report.triangles, 0);
     assert!(loaded.report.skipped.iter().any(|s| s.contains("points and lines")), "{:?}", loaded.report);
 }
@@ -127,8 +129,11 @@ fn quantised_positions_and_normalised_coordinates() {
         let view = d.view(&corners.iter().flatten().flat_map(|v| v.to_le_bytes()).collect::<Vec<_>>());
         d.json["bufferViews"][view]["byteStride"] = json!(8);
         d.json["bufferViews"][view]["target"] = json!(34962);
-        let p = d.push("accessors", json!({"bufferView": view, "componentType": 5122, "normalized": true, "count": 4,
-            "type": "VEC3", "min": [-32767, -32767, 0], "max": [32767, 32767, 0]}));
+        let p = d.push(
+            "accessors",
+            json!({"bufferView": view, "componentType": 5122, "normalized": true, "count": 4,
+            "type": "VEC3", "min": [-32767, -32767, 0], "max": [32767, 32767, 0]}),
+        );
         d.json["meshes"][mesh]["primitives"][0]["attributes"]["POSITION"] = json!(p);
         let uv: [[u8; 4]; 4] = [[0, 255, 0, 0], [255, 255, 0, 0], [255, 0, 0, 0], [0, 0, 0, 0]];
         let view = d.view(&uv.concat());
@@ -136,8 +141,15 @@ fn quantised_positions_and_normalised_coordinates() {
         d.json["bufferViews"][view]["target"] = json!(34962);
         let t = d.push("accessors", json!({"bufferView": view, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC2"}));
         d.json["meshes"][mesh]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(t);
-        let texture = d.texture(2, &[[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255; 4]], json!({"magFilter": 9728}));
-        let m = d.push("materials", json!({"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": texture}}}));
+        let texture = d.texture(
+            2,
+            &[[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255; 4]],
+            json!({"magFilter": 9728}),
+        );
+        let m = d.push(
+            "materials",
+            json!({"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": texture}}}),
+        );
         d.json["meshes"][mesh]["primitives"][0]["material"] = json!(m);
     });
     assert_eq!(covered(&d).len(), 400);
@@ -156,11 +168,18 @@ fn interleaved_attributes() {
     let view = d.view(&bytes);
     d.json["bufferViews"][view]["byteStride"] = json!(24);
     d.json["bufferViews"][view]["target"] = json!(34962);
-    let p = d.push("accessors", json!({"bufferView": view, "componentType": 5126, "count": 4, "type": "VEC3",
-        "min": [-1, -1, 0], "max": [1, 1, 0]}));
-    let n = d.push("accessors", json!({"bufferView": view, "byteOffset": 12, "componentType": 5126, "count": 4, "type": "VEC3"}));
+    let p = d.push(
+        "accessors",
+        json!({"bufferView": view, "componentType": 5126, "count": 4, "type": "VEC3",
+        "min": [-1, -1, 0], "max": [1, 1, 0]}),
+    );
+    let n = d.push(
+        "accessors",
+        json!({"bufferView": view, "byteOffset": 12, "componentType": 5126, "count": 4, "type": "VEC3"}),
+    );
     let i = d.indices(&q.indices);
-    let mesh = d.push("meshes", json!({"primitives": [{"attributes": {"POSITION": p, "NORMAL": n}, "indices": i}]}));
+    let mesh =
+        d.push("meshes", json!({"primitives": [{"attributes": {"POSITION": p, "NORMAL": n}, "indices": i}]}));
     d.node(json!({"mesh": mesh}));
     assert_eq!(covered(&d).len(), 400);
     assert_eq!(read(&d).at(0.1, 0.1).shading.z, Vec3A::Z);
@@ -180,7 +199,8 @@ fn morph_targets_and_skins_stand_in_the_pose_of_the_file() {
     let mesh = d.mesh(&quad(), None);
     let joints: [[u8; 4]; 4] = [[0, 0, 0, 0], [1, 0, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0]];
     let view = d.view(&joints.concat());
-    let j = d.push("accessors", json!({"bufferView": view, "componentType": 5121, "count": 4, "type": "VEC4"}));
+    let j =
+        d.push("accessors", json!({"bufferView": view, "componentType": 5121, "count": 4, "type": "VEC4"}));
     let w = d.floats(&[[1.0f32, 0.0, 0.0, 0.0]; 4]);
     let attributes = &mut d.json["meshes"][mesh]["primitives"][0]["attributes"];
     attributes["JOINTS_0"] = json!(j);

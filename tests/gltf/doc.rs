@@ -12,7 +12,10 @@ pub(crate) struct Doc {
 
 impl Doc {
     pub(crate) fn new() -> Self {
-        Self { json: json!({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}]}), bin: Vec::new() }
+        Self {
+            json: json!({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}]}),
+            bin: Vec::new(),
+        }
     }
 
     /// Appends to an array of the root; its index.
@@ -104,7 +107,8 @@ impl Doc {
     pub(crate) fn gltf(&self) -> Vec<u8> {
         let mut json = self.finished();
         if !self.bin.is_empty() {
-            json["buffers"][0]["uri"] = json!(format!("data:application/octet-stream;base64,{}", base64(&self.bin)));
+            json["buffers"][0]["uri"] =
+                json!(format!("data:application/octet-stream;base64,{}", base64(&self.bin)));
         }
         serde_json::to_vec_pretty(&json).expect("JSON")
     }

@@ -82,7 +82,13 @@ fn disc(n: u32, soft: bool) -> Vec<[u8; 4]> {
     let texel = |i: u32| {
         let at = |k: u32| (k as f32 + 0.5) / n as f32 * 2.0 - 1.0;
         let r = (at(i % n).powi(2) + at(i / n).powi(2)).sqrt();
-        let alpha = if soft { 1.2 - 1.2 * r } else if r < 0.9 && r > 0.4 { 1.0 } else { 0.0 };
+        let alpha = if soft {
+            1.2 - 1.2 * r
+        } else if r < 0.9 && r > 0.4 {
+            1.0
+        } else {
+            0.0
+        };
         [240, 160, 40, (alpha.clamp(0.0, 1.0) * 255.0) as u8]
     };
     (0..n * n).map(texel).collect()
@@ -144,13 +150,17 @@ fn textured(s: &mut Sheet) {
     s.ball("metallic-roughness texture", m);
     let m = pbr([0.02, 0.02, 0.02], 0.0, 0.1);
     let blue = json!({"specularFactor": 1.0, "specularColorFactor": [0.3, 0.6, 3.0]});
-    s.ball("specular colour", with(with(m, "KHR_materials_specular", blue), "KHR_materials_ior", json!({"ior": 2.0})));
+    s.ball(
+        "specular colour",
+        with(with(m, "KHR_materials_specular", blue), "KHR_materials_ior", json!({"ior": 2.0})),
+    );
 }
 
 /// Row four: what light goes through.
 fn clear(s: &mut Sheet) {
     let glass = |base: [f32; 3], roughness: f32, ior: f32| {
-        let m = with(pbr(base, 0.0, roughness), "KHR_materials_transmission", json!({"transmissionFactor": 1}));
+        let m =
+            with(pbr(base, 0.0, roughness), "KHR_materials_transmission", json!({"transmissionFactor": 1}));
         with(m, "KHR_materials_ior", json!({"ior": ior}))
     };
     let body = json!({"thicknessFactor": 1});
@@ -158,7 +168,8 @@ fn clear(s: &mut Sheet) {
     s.ball("thin rough wall", glass([0.6, 0.85, 1.0], 0.4, 1.5));
     s.ball("glass", with(glass([1.0; 3], 0.0, 1.5), "KHR_materials_volume", body.clone()));
     s.ball("frosted glass", with(glass([1.0; 3], 0.3, 1.5), "KHR_materials_volume", body.clone()));
-    let green = json!({"thicknessFactor": 1, "attenuationDistance": 0.8, "attenuationColor": [0.2, 0.8, 0.3]});
+    let green =
+        json!({"thicknessFactor": 1, "attenuationDistance": 0.8, "attenuationColor": [0.2, 0.8, 0.3]});
     s.ball("absorbing glass", with(glass([1.0; 3], 0.0, 1.5), "KHR_materials_volume", green));
     s.ball("diamond", with(glass([1.0; 3], 0.0, 2.4), "KHR_materials_volume", body));
 }
@@ -193,7 +204,8 @@ fn special(s: &mut Sheet) {
     // A target that pulls the ball in half way, and a mirror that turns it around.
     let mut morphed = s.ball.clone();
     let shape = ball(48, 24);
-    let pull: Vec<[f32; 3]> = shape.positions.iter().map(|p| [-0.8 * p[0] * (1.0 - p[1].abs()), 0.0, 0.0]).collect();
+    let pull: Vec<[f32; 3]> =
+        shape.positions.iter().map(|p| [-0.8 * p[0] * (1.0 - p[1].abs()), 0.0, 0.0]).collect();
     let pull = s.doc.floats(&pull);
     morphed["targets"] = json!([{"POSITION": pull}]);
     let (mesh, at) = (s.mesh(&morphed, pbr([0.7, 0.4, 0.6], 0.0, 0.3)), s.place());
@@ -203,7 +215,8 @@ fn special(s: &mut Sheet) {
 
 /// The wall behind, the lights and the camera.
 fn around(s: &mut Sheet) {
-    let tiles = s.doc.texture(2, &checker(2, [150, 150, 150, 255], [120, 120, 120, 255]), json!({"magFilter": 9728}));
+    let tiles =
+        s.doc.texture(2, &checker(2, [150, 150, 150, 255], [120, 120, 120, 255]), json!({"magFilter": 9728}));
     let mut m = with(pbr([1.0; 3], 0.0, 1.0), "KHR_materials_specular", json!({"specularFactor": 0}));
     m["pbrMetallicRoughness"]["baseColorTexture"] =
         json!({"index": tiles, "extensions": {"KHR_texture_transform": {"scale": [24, 24]}}});
@@ -211,7 +224,8 @@ fn around(s: &mut Sheet) {
     s.doc.node(json!({"name": "wall", "mesh": wall, "translation": [0, 0, -1.6], "scale": [16, 16, 1]}));
     let mut m = pbr([0.0; 3], 0.0, 1.0);
     m["emissiveFactor"] = json!([1.0, 0.95, 0.9]);
-    let lamp = s.mesh(&s.quad.clone(), with(m, "KHR_materials_emissive_strength", json!({"emissiveStrength": 14.0})));
+    let lamp = s
+        .mesh(&s.quad.clone(), with(m, "KHR_materials_emissive_strength", json!({"emissiveStrength": 14.0})));
     // Above and in front, looking down and back: turned about x by 180° − 50°.
     let half = 65f32.to_radians();
     s.doc.node(json!({"name": "lamp", "mesh": lamp, "translation": [-3, 11, 10], "scale": [4, 3, 1],

@@ -116,7 +116,11 @@ fn placements_without_an_inverse() {
     let mut d = placed(json!({"scale": [1, 1, 0], "translation": [3, 0, 0]}));
     d.node(json!({"mesh": 0}));
     let r = try_read(&d, &LoadOptions::default()).expect("the other one");
-    assert!(r.loaded.report.warnings.iter().any(|w| w.contains("/nodes/0")), "{:?}", r.loaded.report.warnings);
+    assert!(
+        r.loaded.report.warnings.iter().any(|w| w.contains("/nodes/0")),
+        "{:?}",
+        r.loaded.report.warnings
+    );
     assert!(r.see(Vec3A::Z, Vec3A::NEG_Z).is_some());
 }
 

@@ -25,14 +25,18 @@ fn lit(light: Value, node: Value) -> crate::Read {
 }
 
 fn sample(r: &crate::Read, p: Vec3A) -> Option<LightSample> {
-    let at = LitPoint { p, p_err: Vec3A::ZERO, ng: Vec3A::ZERO, ns: Vec3A::ZERO, sides: Sides::Free, time: 0.0 };
+    let at =
+        LitPoint { p, p_err: Vec3A::ZERO, ng: Vec3A::ZERO, ns: Vec3A::ZERO, sides: Sides::Free, time: 0.0 };
     let _: Origin = at.origin();
     r.scene.lights()[0].sample(&at, 0, Vec2::splat(0.5))
 }
 
 #[test]
 fn a_point_light_of_683_candela_is_one_watt_per_steradian() {
-    let r = lit(json!({"type": "point", "intensity": LM_PER_W, "color": [1.0, 0.5, 0.25]}), json!({"translation": [1, 2, 3]}));
+    let r = lit(
+        json!({"type": "point", "intensity": LM_PER_W, "color": [1.0, 0.5, 0.25]}),
+        json!({"translation": [1, 2, 3]}),
+    );
     assert_eq!(r.loaded.report.lights, 1);
     let s = sample(&r, Vec3A::new(1.0, 2.0, 1.0)).expect("light");
     close(s.li, [0.25, 0.125, 0.0625], 1e-6);
@@ -52,7 +56,10 @@ fn blenders_watts_come_back() {
 fn a_directional_light_counts_in_lux() {
     // Turned by −90° around x: the light's −z becomes −y.
     let half = std::f32::consts::FRAC_1_SQRT_2;
-    let r = lit(json!({"type": "directional", "intensity": 2.0 * LM_PER_W}), json!({"rotation": [-half, 0, 0, half]}));
+    let r = lit(
+        json!({"type": "directional", "intensity": 2.0 * LM_PER_W}),
+        json!({"rotation": [-half, 0, 0, half]}),
+    );
     let s = sample(&r, Vec3A::ZERO).expect("light");
     close(s.li, [2.0; 3], 1e-5);
     assert!((s.wi - Vec3A::Y).length() < 1e-6 && s.is_delta && s.end.is_none());
@@ -131,8 +138,14 @@ fn unlit_shows_its_colour_and_reflects_nothing() {
 #[test]
 fn cameras_keep_their_place_name_and_shape() {
     let mut d = Doc::new();
-    let p = d.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1, "aspectRatio": 2.0}}));
-    let o = d.push("cameras", json!({"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0.1, "zfar": 9}}));
+    let p = d.push(
+        "cameras",
+        json!({"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1, "aspectRatio": 2.0}}),
+    );
+    let o = d.push(
+        "cameras",
+        json!({"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0.1, "zfar": 9}}),
+    );
     let parent = d.node(json!({"translation": [0, 0, 5], "scale": [2, 2, 2], "children": [1]}));
     d.push("nodes", json!({"camera": p, "name": "front", "translation": [1, 0, 0]}));
     d.node(json!({"camera": o, "name": "flat"}));
@@ -145,7 +158,8 @@ fn cameras_keep_their_place_name_and_shape() {
     let front = &r.loaded.cameras[0];
     assert_eq!(front.aspect, Some(2.0));
     let size = UVec2::new(200, 100);
-    let ray = front.at_size(size).expect("camera").ray(Vec2::new(100.0, 0.0), Vec2::ZERO, 0.0).expect("ray").ray;
+    let ray =
+        front.at_size(size).expect("camera").ray(Vec2::new(100.0, 0.0), Vec2::ZERO, 0.0).expect("ray").ray;
     assert!((ray.o - Vec3A::new(2.0, 0.0, 5.0)).length() < 1e-5, "{}", ray.o);
     // Half the vertical field of view is 0.4.
     assert!((ray.d.y - 0.4f32.sin()).abs() < 1e-5 && ray.d.x.abs() < 1e-6);

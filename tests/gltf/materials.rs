@@ -49,7 +49,10 @@ fn textures_lie_the_right_way_up_and_are_decoded_from_srgb() {
     close(r.albedo(0.5, -0.5), [0.5 * MIDDLE; 3], 1e-6);
     let s = r.at(0.0, 0.0);
     let bsdf = r.scene.material(&s).expect("material").bsdf(&s).lobes();
-    assert!(bsdf.contains(Lobes::DIFFUSE) && !bsdf.contains(Lobes::GLOSSY), "what has no gloss has no lobe for it");
+    assert!(
+        bsdf.contains(Lobes::DIFFUSE) && !bsdf.contains(Lobes::GLOSSY),
+        "what has no gloss has no lobe for it"
+    );
 }
 
 #[test]
@@ -136,8 +139,13 @@ fn what_nothing_uses_is_not_decoded() {
     });
     let error = try_read(&used, &LoadOptions::default()).err().expect("refused").to_string();
     assert!(error.contains("/images/0"), "{error}");
-    let lenient = try_read(&used, &LoadOptions { lenient: true, ..LoadOptions::default() }).expect("gray instead");
-    assert!(lenient.loaded.report.warnings.iter().any(|w| w.contains("/images/0")), "{:?}", lenient.loaded.report);
+    let lenient =
+        try_read(&used, &LoadOptions { lenient: true, ..LoadOptions::default() }).expect("gray instead");
+    assert!(
+        lenient.loaded.report.warnings.iter().any(|w| w.contains("/images/0")),
+        "{:?}",
+        lenient.loaded.report
+    );
 }
 
 #[test]
@@ -148,7 +156,12 @@ fn vertex_colours_multiply_and_their_alpha_cuts() {
     material["alphaMode"] = json!("MASK");
     let m = d.push("materials", material);
     let mesh = d.mesh(&quad(), Some(m));
-    let colors = d.floats(&[[0.5, 0.25, 1.0, 1.0], [0.5, 0.25, 1.0, 0.0f32], [0.5, 0.25, 1.0, 0.0], [0.5, 0.25, 1.0, 1.0]]);
+    let colors = d.floats(&[
+        [0.5, 0.25, 1.0, 1.0],
+        [0.5, 0.25, 1.0, 0.0f32],
+        [0.5, 0.25, 1.0, 0.0],
+        [0.5, 0.25, 1.0, 1.0],
+    ]);
     d.json["meshes"][mesh]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
     d.node(json!({"mesh": mesh}));
     let r = read(&d);
@@ -162,11 +175,13 @@ fn mask_is_sharp_and_blend_lets_its_share_through() {
         let d = with(matte(json!({})), |d, m| {
             m["alphaMode"] = json!(mode);
             let texels = [[255, 255, 255, alpha]];
-            m["pbrMetallicRoughness"]["baseColorTexture"] = json!({"index": d.texture(1, &texels, nearest())});
+            m["pbrMetallicRoughness"]["baseColorTexture"] =
+                json!({"index": d.texture(1, &texels, nearest())});
         });
         let r = read(&d);
         let ray = Ray::new(Vec3A::new(0.1, 0.2, 5.0), Vec3A::NEG_Z);
-        let hits = (0..4096u32).filter(|i| r.scene.intersect(&ray, i.wrapping_mul(2_654_435_761)).is_some()).count();
+        let hits =
+            (0..4096u32).filter(|i| r.scene.intersect(&ray, i.wrapping_mul(2_654_435_761)).is_some()).count();
         (hits as f32 / 4096.0, r.scene.needs())
     };
     assert_eq!(read_with("MASK", 128).0, 1.0);
@@ -175,7 +190,10 @@ fn mask_is_sharp_and_blend_lets_its_share_through() {
     let (share, _) = read_with("BLEND", 64);
     assert!((share - 64.0 / 255.0).abs() < 0.021, "{share}");
     let (solid, needs) = read_with("BLEND", 255);
-    assert!(solid == 1.0 && !needs.contains(Needs::CUTOUTS), "what is solid everywhere has no holes to look for");
+    assert!(
+        solid == 1.0 && !needs.contains(Needs::CUTOUTS),
+        "what is solid everywhere has no holes to look for"
+    );
     assert_eq!(read_with("OPAQUE", 0).0, 1.0);
 }
 
@@ -185,7 +203,10 @@ fn a_normal_map_tilts_along_the_tangents_given_or_made() {
     let lean = |texel: [u8; 4], given: bool, flipped: bool| {
         let mut d = Doc::new();
         let t = d.texture(1, &[texel], nearest());
-        let m = d.push("materials", json!({"normalTexture": {"index": t}, "pbrMetallicRoughness": {"metallicFactor": 0}}));
+        let m = d.push(
+            "materials",
+            json!({"normalTexture": {"index": t}, "pbrMetallicRoughness": {"metallicFactor": 0}}),
+        );
         let mut shape = quad();
         if flipped {
             // The image mirrored: u runs to the left.
@@ -256,7 +277,8 @@ fn transmission_bends_in_a_volume_and_goes_straight_through_a_thin_wall() {
 
 #[test]
 fn a_volume_absorbs_by_the_colour_at_its_distance() {
-    let volume = json!({"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [0.25, 0.5, 1.0]});
+    let volume =
+        json!({"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [0.25, 0.5, 1.0]});
     for base in [[1.0; 4], [0.9, 0.9, 0.9, 1.0]] {
         let r = read(&glass(Some(volume.clone()), base));
         let s = r.at(0.0, 0.0);
@@ -295,7 +317,8 @@ fn variants_are_chosen_by_name() {
     let mut d = Doc::new();
     d.uses("KHR_materials_specular");
     d.uses("KHR_materials_variants");
-    d.json["extensions"] = json!({"KHR_materials_variants": {"variants": [{"name": "day"}, {"name": "night"}]}});
+    d.json["extensions"] =
+        json!({"KHR_materials_variants": {"variants": [{"name": "day"}, {"name": "night"}]}});
     let gray = |v: f32| matte(json!({"baseColorFactor": [v, v, v, 1.0]}));
     let own = d.push("materials", gray(0.5));
     let night = d.push("materials", gray(0.125));

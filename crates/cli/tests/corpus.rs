@@ -19,7 +19,10 @@ fn files(folder: &Path, endings: &[&str], out: &mut Vec<PathBuf>) {
         let path = entry.expect("entry").path();
         if path.is_dir() {
             files(&path, endings, out);
-        } else if path.extension().is_some_and(|e| endings.contains(&e.to_string_lossy().to_lowercase().as_str())) {
+        } else if path
+            .extension()
+            .is_some_and(|e| endings.contains(&e.to_string_lossy().to_lowercase().as_str()))
+        {
             out.push(path);
         }
     }
@@ -45,7 +48,11 @@ fn accepted(path: &Path, out: &Output) -> bool {
         Some(0) => true,
         Some(1) => {
             let named = path.file_name().is_some_and(|n| error.contains(&*n.to_string_lossy()));
-            assert!(named && !error.contains("panicked"), "{}: '{error}' does not name the file", path.display());
+            assert!(
+                named && !error.contains("panicked"),
+                "{}: '{error}' does not name the file",
+                path.display()
+            );
             false
         }
         code => panic!("{}: ended with {code:?}\n{error}", path.display()),

@@ -1,7 +1,7 @@
 use std::path::Path;
 
-use etendue_core::Progress;
 use etendue_bsdf::Meaning;
+use etendue_core::Progress;
 use etendue_scene::SceneBuilder;
 
 use crate::{Limits, Loaded};

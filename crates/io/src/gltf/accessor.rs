@@ -121,7 +121,11 @@ impl<'a> Accessors<'a> {
         self.doc.unusable(format!("/accessors/{}", index.value()), message)
     }
 
-    fn open(&self, index: Index<Accessor>, wanted: &[Type]) -> Result<(&'a Accessor, ComponentType), GltfError> {
+    fn open(
+        &self,
+        index: Index<Accessor>,
+        wanted: &[Type],
+    ) -> Result<(&'a Accessor, ComponentType), GltfError> {
         let a = self
             .doc
             .root
@@ -202,7 +206,8 @@ impl<'a> Accessors<'a> {
         let (at, values) = (&s.indices, &s.values);
         let places =
             self.elements(index, at.buffer_view.value(), at.byte_offset.0, kind.0.size(), s.count.0)?;
-        let values = self.elements(index, values.buffer_view.value(), values.byte_offset.0, size, s.count.0)?;
+        let values =
+            self.elements(index, values.buffer_view.value(), values.byte_offset.0, size, s.count.0)?;
         for (place, value) in places.iter().map(whole).zip(values.iter()) {
             match out.get_mut(place as usize) {
                 Some(slot) => *slot = read(value),

@@ -61,8 +61,8 @@ impl<'a> Document<'a> {
         } else {
             (bytes, None)
         };
-        let text = check::text(json, options.limits.json_values)
-            .map_err(|e| refusal(name, e, String::new()))?;
+        let text =
+            check::text(json, options.limits.json_values).map_err(|e| refusal(name, e, String::new()))?;
         judge(text.warnings)?;
         let mut value = text.root;
         judge(check::structure(&value))?;
@@ -121,12 +121,7 @@ fn refusal(name: &str, issue: Issue, more: String) -> GltfError {
 const SILENT: &[&str] = &["MESH_PRIMITIVE_GENERATED_TANGENT_SPACE"];
 
 /// The first fault that stops the load; the others as warnings.
-fn judge(
-    name: &str,
-    issues: Vec<Issue>,
-    lenient: bool,
-    warnings: &mut Vec<String>,
-) -> Result<(), GltfError> {
+fn judge(name: &str, issues: Vec<Issue>, lenient: bool, warnings: &mut Vec<String>) -> Result<(), GltfError> {
     let is_fault = |i: &Issue| i.severity == Severity::Error;
     let faults = issues.iter().filter(|i| is_fault(i)).count();
     let all_harmless = issues.iter().all(|i| i.harmless || !is_fault(i));

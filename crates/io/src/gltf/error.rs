@@ -42,7 +42,9 @@ pub enum GltfError {
         source: ResolveError,
     },
     /// More than the limits allow.
-    #[error("{file}, at '{pointer}': {asked} {what}, but the limit is {limit}; raise it if the file is sound")]
+    #[error(
+        "{file}, at '{pointer}': {asked} {what}, but the limit is {limit}; raise it if the file is sound"
+    )]
     Limit {
         /// The file.
         file: String,

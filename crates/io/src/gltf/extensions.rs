@@ -26,7 +26,9 @@ const BUILT: &[&str] = &[
 /// What to do about an extension that is not built.
 fn cure(extension: &str) -> &'static str {
     match extension {
-        "KHR_draco_mesh_compression" => "export without Draco compression, or decompress with `gltf-transform copy`",
+        "KHR_draco_mesh_compression" => {
+            "export without Draco compression, or decompress with `gltf-transform copy`"
+        }
         "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
             "export without meshopt compression, or decompress with `gltf-transform copy`"
         }

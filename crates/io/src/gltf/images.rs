@@ -72,7 +72,9 @@ impl<'a> Images<'a> {
     ) -> Result<Option<ImageUse>, GltfError> {
         let root = &self.doc.root;
         let Some(t) = root.textures.get(r.texture) else {
-            return Err(self.doc.unusable(format!("/textures/{}", r.texture), "there is no such texture".into()));
+            return Err(self
+                .doc
+                .unusable(format!("/textures/{}", r.texture), "there is no such texture".into()));
         };
         let source = t.source.value();
         if source >= root.images.len() {
@@ -100,9 +102,9 @@ impl<'a> Images<'a> {
                 made
             }
         };
-        let transform = r.transform().map(|t| {
-            UvTransform::new(Vec2::from_array(t.offset), t.rotation, Vec2::from_array(t.scale))
-        });
+        let transform = r
+            .transform()
+            .map(|t| UvTransform::new(Vec2::from_array(t.offset), t.rotation, Vec2::from_array(t.scale)));
         Ok(image.map(|image| ImageUse {
             image,
             uv_set: slot,
@@ -113,7 +115,8 @@ impl<'a> Images<'a> {
 
     fn bytes(&self, index: usize) -> Result<std::borrow::Cow<'_, [u8]>, GltfError> {
         let pointer = format!("/images/{index}");
-        let missing = || self.doc.unusable(pointer.clone(), "it names neither a file nor a buffer view".into());
+        let missing =
+            || self.doc.unusable(pointer.clone(), "it names neither a file nor a buffer view".into());
         let image = self.doc.root.images.get(index).ok_or_else(missing)?;
         if let Some(view) = image.buffer_view {
             return self.doc.view(view.value()).map(Into::into).ok_or_else(missing);

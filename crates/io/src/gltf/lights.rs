@@ -25,7 +25,12 @@ fn point(m: &DMat4) -> Vec3A {
 }
 
 /// Adds the punctual lights of the scene; how many there were.
-pub(super) fn add(doc: &Document<'_>, walked: &Walked, builder: &mut SceneBuilder, warnings: &mut Vec<String>) -> u64 {
+pub(super) fn add(
+    doc: &Document<'_>,
+    walked: &Walked,
+    builder: &mut SceneBuilder,
+    warnings: &mut Vec<String>,
+) -> u64 {
     let all = doc.root.extensions.as_ref().map(|e| &e.others);
     let all: Vec<PunctualLight> =
         extensions::get::<PunctualLights>(all, "KHR_lights_punctual").map_or(Vec::new(), |l| l.lights);
@@ -57,7 +62,10 @@ pub(super) fn add(doc: &Document<'_>, walked: &Walked, builder: &mut SceneBuilde
             count = count.saturating_add(1);
         } else {
             let name = &light.name;
-            warnings.push(format!("{}, at '/nodes/{node}': the light '{name}' cannot be placed; left out", doc.name));
+            warnings.push(format!(
+                "{}, at '/nodes/{node}': the light '{name}' cannot be placed; left out",
+                doc.name
+            ));
         }
     }
     count
@@ -67,7 +75,9 @@ pub(super) fn add(doc: &Document<'_>, walked: &Walked, builder: &mut SceneBuilde
 pub(super) fn cameras(doc: &Document<'_>, walked: &Walked, warnings: &mut Vec<String>) -> Vec<SceneCamera> {
     let mut out = Vec::new();
     for &(index, node) in &walked.cameras {
-        let (Some(camera), Some(Some(m))) = (doc.root.cameras.get(index), walked.world.get(node)) else { continue };
+        let (Some(camera), Some(Some(m))) = (doc.root.cameras.get(index), walked.world.get(node)) else {
+            continue;
+        };
         let named = |n: &Option<String>| n.clone().filter(|n| !n.is_empty());
         let name = doc.root.nodes.get(node).and_then(|n| named(&n.name)).or_else(|| named(&camera.name));
         let mut warn = |what: &str| {
@@ -75,7 +85,8 @@ pub(super) fn cameras(doc: &Document<'_>, walked: &Walked, warnings: &mut Vec<St
         };
         // Scale means nothing to a camera, and a scale of zero along one axis must not take the view away.
         let axes = [m.x_axis, m.y_axis, m.z_axis].map(|a| a.truncate().normalize_or_zero());
-        let to_world = Transform::from_f64(DMat3::from_cols_array_2d(&axes.map(|a| a.to_array())), m.w_axis.truncate());
+        let to_world =
+            Transform::from_f64(DMat3::from_cols_array_2d(&axes.map(|a| a.to_array())), m.w_axis.truncate());
         let Ok(to_world) = to_world else {
             warn("is placed by a matrix that flattens space");
             continue;

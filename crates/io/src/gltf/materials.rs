@@ -3,11 +3,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use etendue_core::{Spectrum, math};
 use etendue_bsdf::{Masking, Meaning};
-use etendue_material::{
-    Absorber, Cutout, Diffuse, Glass, Material, Metal, NormalMapped, Principled,
-};
+use etendue_core::{Spectrum, math};
+use etendue_material::{Absorber, Cutout, Diffuse, Glass, Material, Metal, NormalMapped, Principled};
 use etendue_scene::{Emission, MaterialId, SceneBuilder};
 use etendue_texture::{Channel, Encoding, ImageUse, ScalarTex, Tex};
 use gltf::json::material::{self, AlphaMode};
@@ -89,7 +87,8 @@ impl<'a> Materials<'a> {
         let m = self.of(index).clone();
         let place = index.map_or(self.doc.name.into(), |i| format!("{}, at '/materials/{i}'", self.doc.name));
         let (material, emission) =
-            Maker { images: &mut self.images, doc: self.doc, m: &m, wanted, colored, place, warnings }.make()?;
+            Maker { images: &mut self.images, doc: self.doc, m: &m, wanted, colored, place, warnings }
+                .make()?;
         let made = Made { id: builder.material_arc(material), emission };
         self.made.insert((index, colored), made.clone());
         Ok(made)
@@ -111,7 +110,9 @@ fn others(m: &material::Material) -> Option<&Map<String, Value>> {
 /// Every texture that a material reads, in the order of their importance for texture coordinates.
 fn each_texture(m: &material::Material, mut see: impl FnMut(&TextureRef<'_>)) {
     let p = &m.pbr_metallic_roughness;
-    for info in [&p.base_color_texture, &p.metallic_roughness_texture, &m.emissive_texture].into_iter().flatten() {
+    for info in
+        [&p.base_color_texture, &p.metallic_roughness_texture, &m.emissive_texture].into_iter().flatten()
+    {
         see(&info.into());
     }
     if let Some(n) = &m.normal_texture {
@@ -232,11 +233,16 @@ impl Maker<'_, '_> {
         if opaque && is(&metallic, 0.0) && is(&specular, 0.0) {
             return Ok(Arc::new(Diffuse { vertex_color: self.colored, ..Diffuse::new(base) }));
         }
-        if is(&transmission, 1.0) && is(&metallic, 0.0) && is(&roughness, 0.0) && white && !thin && ior >= 1.0 {
+        if is(&transmission, 1.0) && is(&metallic, 0.0) && is(&roughness, 0.0) && white && !thin && ior >= 1.0
+        {
             return Ok(Arc::new(Glass { absorption, ..Glass::new(ior) }));
         }
         if meaning == Meaning::GltfB && is(&metallic, 1.0) && roughness.is_constant() {
-            let metal = Metal { masking: Masking::Separable, vertex_color: self.colored, ..Metal::schlick(base, roughness) };
+            let metal = Metal {
+                masking: Masking::Separable,
+                vertex_color: self.colored,
+                ..Metal::schlick(base, roughness)
+            };
             return Ok(Arc::new(metal));
         }
         Ok(Arc::new(Principled {

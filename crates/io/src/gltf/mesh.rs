@@ -158,7 +158,9 @@ pub(super) fn build(
         return Err(fail(format!("index {index} is beyond the {count} vertices")));
     }
     if !v.triangles.iter().flatten().all(|&i| is_finite(&v, i)) && !doc.options.lenient {
-        return Err(fail("a vertex is not a finite number; a lenient load (--lenient) leaves its triangles out".into()));
+        return Err(fail(
+            "a vertex is not a finite number; a lenient load (--lenient) leaves its triangles out".into(),
+        ));
     }
     if let Some(index) = attribute(Semantic::Normals) {
         v.normals = accessors.floats::<3>(index)?;
@@ -179,7 +181,8 @@ pub(super) fn build(
         fits("colours", v.colors.len())?;
     }
     // Given tangents belong to given normals.
-    if let Some(index) = attribute(Semantic::Tangents).filter(|_| wanted.tangents_of.is_some() && !v.normals.is_empty())
+    if let Some(index) =
+        attribute(Semantic::Tangents).filter(|_| wanted.tangents_of.is_some() && !v.normals.is_empty())
     {
         v.tangents = accessors.floats::<4>(index)?;
         fits("tangents", v.tangents.len())?;
@@ -254,9 +257,11 @@ fn triangles(accessors: &Accessors<'_>, p: &Primitive, count: usize) -> Result<V
             indices.windows(3).enumerate().filter_map(turned).collect()
         }
         Checked::Valid(Mode::TriangleFan) => match indices.split_first() {
-            Some((&first, rest)) => {
-                rest.windows(2).filter_map(|w| <[u32; 2]>::try_from(w).ok()).map(|[a, b]| [first, a, b]).collect()
-            }
+            Some((&first, rest)) => rest
+                .windows(2)
+                .filter_map(|w| <[u32; 2]>::try_from(w).ok())
+                .map(|[a, b]| [first, a, b])
+                .collect(),
             None => Vec::new(),
         },
         Checked::Valid(Mode::Triangles) => indices.chunks_exact(3).filter_map(triple).collect(),

@@ -91,7 +91,8 @@ fn variant(doc: &Document<'_>) -> Result<Option<usize>, GltfError> {
         return Ok(Some(i));
     }
     let names: Vec<&str> = all.iter().map(|v| v.name.as_str()).collect();
-    let there_are = if names.is_empty() { "it has none".into() } else { format!("it has {}", names.join(", ")) };
+    let there_are =
+        if names.is_empty() { "it has none".into() } else { format!("it has {}", names.join(", ")) };
     Err(GltfError::Variant { file: doc.name.into(), asked: asked.clone(), there_are })
 }
 

@@ -51,9 +51,8 @@ pub(super) fn walk(doc: &Document<'_>, accessors: &Accessors<'_>) -> Result<Walk
     let mut stack: Vec<Step> = roots(doc)?.into_iter().rev().map(root).collect();
     while let Some(step) = stack.pop() {
         let pointer = || format!("/nodes/{}", step.node);
-        let node = nodes
-            .get(step.node)
-            .ok_or_else(|| doc.unusable(pointer(), "there is no such node".into()))?;
+        let node =
+            nodes.get(step.node).ok_or_else(|| doc.unusable(pointer(), "there is no such node".into()))?;
         if step.depth > doc.limits().node_depth {
             return Err(GltfError::Limit {
                 file: doc.name.into(),
@@ -99,9 +98,12 @@ pub(super) fn walk(doc: &Document<'_>, accessors: &Accessors<'_>) -> Result<Walk
         }
         let children: &[Index<Node>] = node.children.as_deref().unwrap_or(&[]);
         let depth = step.depth.saturating_add(1);
-        stack.extend(
-            children.iter().rev().map(|c| Step { node: c.value(), parent: to_world, depth, visible }),
-        );
+        stack.extend(children.iter().rev().map(|c| Step {
+            node: c.value(),
+            parent: to_world,
+            depth,
+            visible,
+        }));
     }
     Ok(out)
 }

@@ -29,7 +29,10 @@ fn inline(data: &str, limit: u64) -> Result<Vec<u8>, ResolveError> {
     let name = || format!("data:{}", short(data));
     let bad = || ResolveError::Open {
         name: name(),
-        source: std::io::Error::new(std::io::ErrorKind::InvalidData, "it is not valid base64; export the file again"),
+        source: std::io::Error::new(
+            std::io::ErrorKind::InvalidData,
+            "it is not valid base64; export the file again",
+        ),
     };
     let (head, body) = data.split_once(',').ok_or_else(bad)?;
     // Three bytes for every four letters.
@@ -56,7 +59,8 @@ fn percent(text: &[u8]) -> Option<Vec<u8>> {
             out.push(b);
             continue;
         }
-        let mut digit = || bytes.next().and_then(|&d| char::from(d).to_digit(16)).and_then(|d| u8::try_from(d).ok());
+        let mut digit =
+            || bytes.next().and_then(|&d| char::from(d).to_digit(16)).and_then(|d| u8::try_from(d).ok());
         out.push(digit()?.checked_mul(16)?.checked_add(digit()?)?);
     }
     Some(out)
