@@ -1,6 +1,11 @@
 //! What the fuzz targets share.
 
-use etendue_io::{Limits, ResolveError, Resolver};
+#[path = "../../crates/io/tests/common/documents.rs"]
+mod documents;
+#[path = "../../crates/io/tests/common/mutate.rs"]
+mod mutate;
+
+use etendue_io::{Limits, LoadOptions, NoFiles, ResolveError, Resolver};
 use etendue_scene::SceneBuilder;
 
 /// One file, whatever it is called.
@@ -35,4 +40,22 @@ pub fn check<T, E: std::fmt::Display>(name: &str, result: Result<T, E>, builder:
         Ok(_) => drop(builder.build().expect("what loads builds")),
         Err(e) => assert!(e.to_string().contains(name), "the error does not name the file: {e}"),
     }
+}
+
+/// Reads glTF as it should be and as it may be.
+pub fn check_gltf(bytes: &[u8]) {
+    for lenient in [false, true] {
+        let options = LoadOptions { limits: limits(), lenient, ..LoadOptions::default() };
+        let mut b = SceneBuilder::new();
+        let result = etendue_io::gltf::read("fuzzed.gltf", bytes, &NoFiles, &options, &mut b);
+        check("fuzzed.gltf", result, b);
+    }
+}
+
+/// A small valid document with damage, both chosen by the bytes, as `.gltf` or `.glb`.
+pub fn damaged_document(bytes: &[u8]) -> Vec<u8> {
+    let (&[kind], damage) = bytes.split_first_chunk().unwrap_or((&[0], &[]));
+    let all = documents::all();
+    let document = all[usize::from(kind >> 1) % all.len()].damaged(damage);
+    if kind & 1 == 0 { document.gltf() } else { document.glb() }
 }

@@ -184,7 +184,9 @@ impl Maker<'_, '_> {
         let m = self.m;
         let pbr = &m.pbr_metallic_roughness;
         let [r, g, b, _] = pbr.base_color_factor.0;
-        let base = self.color([r, g, b], pbr.base_color_texture.as_ref())?;
+        // Under a lenient load it may lie outside of its range.
+        let base = [r, g, b].map(|c| if c > 0.0 { c.min(1.0) } else { 0.0 });
+        let base = self.color(base, pbr.base_color_texture.as_ref())?;
         if others(m).is_some_and(|o| o.contains_key("KHR_materials_unlit")) {
             if self.colored {
                 self.warn("vertex colours of unlit surfaces are not built; left out");
@@ -297,8 +299,12 @@ impl Maker<'_, '_> {
     fn emission(&mut self) -> Result<Option<Emission>, GltfError> {
         let strength = extensions::get::<EmissiveStrength>(others(self.m), "KHR_materials_emissive_strength")
             .map_or(1.0, |e| e.emissive_strength);
-        let factor = self.m.emissive_factor.0.map(|c| if c > 0.0 { c * strength } else { 0.0 });
+        let factor = self.m.emissive_factor.0.map(|c| if c > 0.0 { (c * strength).max(0.0) } else { 0.0 });
         if factor.iter().all(|c| *c == 0.0) {
+            return Ok(None);
+        }
+        if !factor.iter().all(|c| c.is_finite()) {
+            self.warn("its light is beyond what numbers hold; left out");
             return Ok(None);
         }
         let emission = Emission::new(self.color(factor, self.m.emissive_texture.as_ref())?);

@@ -11,14 +11,14 @@ impl<'a> Dice<'a> {
         Self(bytes)
     }
 
-    fn byte(&mut self) -> Option<usize> {
+    pub(crate) fn byte(&mut self) -> Option<usize> {
         let (first, rest) = self.0.split_first()?;
         self.0 = rest;
         Some(usize::from(*first))
     }
 
     /// A number below `n`, which is not 0.
-    fn below(&mut self, n: usize) -> Option<usize> {
+    pub(crate) fn below(&mut self, n: usize) -> Option<usize> {
         let mut x = self.byte()?;
         if n > 256 {
             x = x << 8 | self.byte()?;

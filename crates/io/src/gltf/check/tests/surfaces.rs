@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::super::*;
-use super::structure::{expect, table, valid, with};
+use super::structure::{expect, table, with};
 
 #[test]
 fn images_textures_and_materials() {
