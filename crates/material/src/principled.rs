@@ -63,12 +63,12 @@ impl Principled {
 
     /// Whether some point may let light through.
     fn transmits(&self) -> bool {
-        self.transmission.max() > 0.0 && self.metallic.min() < 1.0
+        self.ior > 0.0 && self.transmission.max() > 0.0 && self.metallic.min() < 1.0
     }
 
     /// Whether some point may have a base or a dielectric's reflection.
     fn has_opaque_dielectric(&self) -> bool {
-        self.metallic.min() < 1.0 && self.transmission.min() < 1.0
+        self.metallic.min() < 1.0 && (self.transmission.min() < 1.0 || !self.transmits())
     }
 }
 
@@ -121,7 +121,7 @@ impl Material for Principled {
         };
         // A weak interface is a delta at any roughness; which, the BSDF decides.
         let weak = !self.thin && (self.ior - 1.0).abs() <= 0.1;
-        let passes = self.transmits() && (smooth_somewhere || weak || !(self.ior > 0.0));
+        let passes = self.transmits() && (smooth_somewhere || weak);
         needs.set(Needs::DELTA, (smooth_somewhere && mirrors) || passes);
         needs.set(Needs::TRANSMISSION, self.transmits());
         needs | parameter::absorption_needs(self.absorption())

@@ -49,8 +49,8 @@ pub struct Principled {
     pub ggx: Ggx,
     /// Share of metal.
     pub metallic: f32,
-    /// Refractive index of the inside over that of the outside; 0 reflects all at normal incidence and lets light
-    /// through as if there were no interface (KHR_materials_ior).
+    /// Refractive index of the inside over that of the outside; 0 stands for one without bound, whose F0 is 1 and which
+    /// lets nothing through (KHR_materials_ior).
     pub ior: f32,
     /// Strength of the dielectric's reflection.
     pub specular: f32,
@@ -103,10 +103,10 @@ impl Principled {
         (f0.map(|c| if c > 0.0 { c.clamp(0.0, 1.0) } else { 0.0 }) * self.specular, self.specular)
     }
 
-    /// Share of all that lets light through.
+    /// Share of all that lets light through: none where all is reflected.
     #[inline]
     fn transmitting(&self) -> f32 {
-        self.transmission * (1.0 - self.metallic)
+        if self.ior > 0.0 { self.transmission * (1.0 - self.metallic) } else { 0.0 }
     }
 
     /// What lets light through.
@@ -256,11 +256,7 @@ impl Bsdf for Principled {
             lobes |= self.clear().lobes();
         }
         if clear < 1.0 {
-            let opaque = Opaque::new(self);
-            if opaque.has_specular() {
-                lobes |= if opaque.ggx.is_smooth() { Lobes::DELTA } else { Lobes::GLOSSY };
-            }
-            lobes.set(Lobes::DIFFUSE, opaque.has_diffuse());
+            lobes |= Opaque::lobes(self);
         }
         lobes
     }

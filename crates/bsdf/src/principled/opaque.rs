@@ -4,7 +4,7 @@ use etendue_core::{Spectrum, Vec2, Vec3A, math, vector};
 
 use super::{Meaning, Principled};
 use crate::albedo::{Albedo, AlbedoRow, schlick_weight};
-use crate::{Ggx, Masking};
+use crate::{Ggx, Lobes, Masking};
 
 /// Reflectance of one kind of facet at normal and at grazing incidence.
 #[derive(Clone, Copy)]
@@ -84,13 +84,34 @@ pub(super) struct Toward {
 }
 
 impl Opaque {
+    /// The share of metal in what is left when the transmitting share is taken out, and the facets.
+    #[inline]
+    fn metal_and_facets(p: &Principled) -> (f32, Ggx) {
+        let metal = p.metallic / (1.0 - p.transmitting());
+        let metal = if metal > 0.0 { metal.clamp(0.0, 1.0) } else { 0.0 };
+        let floored = p.meaning == Meaning::GltfB && metal < 1.0;
+        (metal, if floored { p.ggx.at_least(Principled::LEAST_ALPHA) } else { p.ggx })
+    }
+
+    /// The kinds of lobes, without all the rest.
+    #[inline]
+    pub(super) fn lobes(p: &Principled) -> Lobes {
+        let (metal, ggx) = Self::metal_and_facets(p);
+        let (f0, f90) = p.dielectric_facets();
+        let shines = metal > 0.0 || f90 > 0.0 || !f0.is_black();
+        let smooth = ggx.is_smooth();
+        let mut lobes = Lobes::empty();
+        lobes.set(Lobes::DELTA, shines && smooth);
+        lobes.set(Lobes::GLOSSY, shines && !smooth);
+        let repeats = shines && !smooth && p.meaning == Meaning::EnergyPreserving;
+        lobes.set(Lobes::DIFFUSE, repeats || (metal < 1.0 && !p.base_color.is_black()));
+        lobes
+    }
+
     #[inline]
     pub(super) fn new(p: &Principled) -> Self {
         let gltf = p.meaning == Meaning::GltfB;
-        // What is left when the transmitting share is taken out holds all of the metal.
-        let metal = p.metallic / (1.0 - p.transmitting());
-        let metal = if metal > 0.0 { metal.clamp(0.0, 1.0) } else { 0.0 };
-        let ggx = if gltf && metal < 1.0 { p.ggx.at_least(Principled::LEAST_ALPHA) } else { p.ggx };
+        let (metal, ggx) = Self::metal_and_facets(p);
         let dielectric = p.dielectric_facets();
         let dielectric = Facets { f0: dielectric.0, f90: dielectric.1 };
         let conductor = Facets { f0: p.base_color, f90: 1.0 };
@@ -147,13 +168,8 @@ impl Opaque {
     }
 
     #[inline]
-    pub(super) fn has_specular(&self) -> bool {
+    fn has_specular(&self) -> bool {
         self.mixed.f90 > 0.0 || !self.mixed.f0.is_black()
-    }
-
-    #[inline]
-    pub(super) fn has_diffuse(&self) -> bool {
-        !self.base.is_black() || !self.repeated.is_black()
     }
 
     /// Albedo of the narrow lobe toward `wo`; for glTF's separable masking an estimate that is a little high.
