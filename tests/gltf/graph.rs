@@ -131,3 +131,48 @@ fn a_stopped_load_is_an_error() {
     let options = LoadOptions { progress: &stop, ..LoadOptions::default() };
     assert!(try_read(&placed(json!({})), &options).err().expect("stopped").to_string().contains("cancelled"));
 }
+
+#[test]
+fn a_fan_beyond_measure_gets_tangents_without_the_generator() {
+    // Around one corner MikkTSpace walks by recursion: 20,000 triangles there took it seconds, more took the stack.
+    let mut d = Doc::new();
+    let texture = d.texture(1, &[[128, 128, 255, 255]], json!({}));
+    let m = d.push("materials", json!({"normalTexture": {"index": texture}}));
+    let mut fan = quad();
+    let rim = 20_000u16;
+    fan.positions = vec![[0.0; 3]];
+    for i in 0..rim {
+        let a = f32::from(i) / f32::from(rim - 1) * 6.0;
+        fan.positions.push([a.cos(), a.sin(), 0.0]);
+    }
+    fan.normals = vec![[0.0, 0.0, 1.0]; fan.positions.len()];
+    fan.uv = fan.positions.iter().map(|p| [p[0], -p[1]]).collect();
+    fan.indices = (1..rim).flat_map(|i| [0, i, i + 1]).collect();
+    let mesh = d.mesh(&fan, Some(m));
+    d.node(json!({"mesh": mesh}));
+    let r = try_read(&d, &LoadOptions::default()).expect("valid");
+    assert!(
+        r.loaded.report.warnings.iter().any(|w| w.contains("MikkTSpace")),
+        "{:?}",
+        r.loaded.report.warnings
+    );
+    assert!((r.at(0.3, 0.3).shading.x - Vec3A::X).length() < 1e-4, "along u");
+}
+
+#[test]
+fn emitting_instances_are_counted_before_they_are_made() {
+    let mut d = Doc::new();
+    let m = d.push("materials", json!({"emissiveFactor": [1, 1, 1]}));
+    let mesh = d.mesh(&quad(), Some(m));
+    for i in 0..10 {
+        d.node(json!({"mesh": mesh, "translation": [i, 0, 0]}));
+    }
+    let limited = |emitters| {
+        let options = LoadOptions::default();
+        let options = LoadOptions { limits: etendue::io::Limits { emitters, ..options.limits }, ..options };
+        try_read(&d, &options).map(|_| ()).map_err(|e| e.to_string())
+    };
+    assert!(limited(20).is_ok());
+    let e = limited(19).expect_err("twenty triangles");
+    assert!(e.contains("20 emitting triangles") && e.contains("the limit is 19"), "{e}");
+}

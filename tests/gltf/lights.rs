@@ -168,3 +168,16 @@ fn cameras_keep_their_place_name_and_shape() {
     let ray = ray.ray(Vec2::new(30.0, 0.0), Vec2::ZERO, 0.0).expect("ray").ray;
     assert!((ray.o - Vec3A::new(3.0, 2.0, 0.0)).length() < 1e-5 && (ray.d - Vec3A::NEG_Z).length() < 1e-6);
 }
+
+#[test]
+fn scale_means_nothing_to_a_camera() {
+    for scale in [json!([-1, 1, 1]), json!([1, 1, 0]), json!([0, 3, 2])] {
+        let mut d = Doc::new();
+        let p = d.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}));
+        d.node(json!({"camera": p, "scale": scale, "translation": [0, 0, 4]}));
+        let r = read(&d);
+        let camera = r.loaded.cameras[0].at_size(UVec2::new(100, 100)).expect("camera");
+        let ray = camera.ray(Vec2::new(100.0, 50.0), Vec2::ZERO, 0.0).expect("ray").ray;
+        assert!(ray.d.z < 0.0 && (ray.d.x - 0.4f32.sin()).abs() < 1e-5, "{scale}: {}", ray.d);
+    }
+}

@@ -5,7 +5,7 @@ use etendue::io::LoadOptions;
 use etendue::prelude::*;
 use serde_json::{Value, json};
 
-use crate::doc::{Doc, quad};
+use crate::doc::{Doc, Shape, quad};
 use crate::{close, read, try_read};
 
 /// Half sRGB white, decoded.
@@ -335,4 +335,34 @@ fn variants_are_chosen_by_name() {
     assert_eq!(shown(Some("night")).expect("night"), 0.125);
     let error = shown(Some("noon")).expect_err("there is none").to_string();
     assert!(error.contains("'noon'") && error.contains("day, night"), "{error}");
+}
+
+#[test]
+fn a_flat_mesh_takes_its_tangents_from_the_normal_maps_own_set() {
+    let mut d = Doc::new();
+    // Leans toward +x of its own coordinates, which run upward; the base colour's run to the right.
+    let map = d.texture(1, &[[191, 128, 238, 255]], nearest());
+    let base = d.texture(1, &[[255; 4]], nearest());
+    let m = d.push(
+        "materials",
+        json!({"normalTexture": {"index": map, "texCoord": 1},
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": base}}}),
+    );
+    let mesh = d.mesh(&Shape { normals: Vec::new(), ..quad() }, Some(m));
+    let uv = d.floats(&[[0.0f32, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]);
+    d.json["meshes"][mesh]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(uv);
+    d.node(json!({"mesh": mesh}));
+    let r = read(&d);
+    let s = r.at(0.3, -0.4);
+    let z = r.scene.material(&s).expect("material").shading_frame(&s).z;
+    assert!((z - Vec3A::new(0.0, 0.5, 0.866)).length() < 0.01, "{z}");
+}
+
+#[test]
+fn what_specular_does_not_do_to_glass_is_said() {
+    let mut d = glass(None, [1.0; 4]);
+    d.uses("KHR_materials_specular");
+    d.json["materials"][0]["extensions"]["KHR_materials_specular"] = json!({"specularFactor": 0.5});
+    let warnings = try_read(&d, &LoadOptions::default()).expect("valid").loaded.report.warnings;
+    assert!(warnings.iter().any(|w| w.contains("KHR_materials_specular")), "{warnings:?}");
 }

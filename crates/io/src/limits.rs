@@ -19,8 +19,10 @@ pub struct Limits {
     pub node_depth: usize,
     /// Placements of meshes, after expansion.
     pub instances: u64,
-    /// Vertices and indices of a scene that accessors ask for, each.
+    /// Vertices and indices that are read, each reading counted.
     pub vertices: u64,
+    /// Triangles that emit light, those of an instance counted again.
+    pub emitters: u64,
 }
 
 impl Default for Limits {
@@ -36,6 +38,7 @@ impl Default for Limits {
             node_depth: 4096,
             instances: 1 << 24,
             vertices: 1 << 31,
+            emitters: 1 << 22,
         }
     }
 }

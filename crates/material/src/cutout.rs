@@ -30,6 +30,10 @@ impl<M: Material> Cutout<M> {
         Self { threshold: Some(threshold), ..self }
     }
 
+    fn has_holes(&self) -> bool {
+        self.vertex_alpha || self.solid(self.opacity.min()) < 1.0
+    }
+
     fn solid(&self, alpha: f32) -> f32 {
         match self.threshold {
             Some(threshold) => f32::from(u8::from(alpha >= threshold)),
@@ -55,7 +59,8 @@ impl<M: Material> Material for Cutout<M> {
     }
 
     fn absorption(&self) -> Option<Spectrum> {
-        self.base.absorption()
+        // A ray through a hole would come or go unseen; a body that leaks is none.
+        if self.has_holes() { None } else { self.base.absorption() }
     }
 
     fn interior(&self) -> Option<MediumId> {
@@ -69,7 +74,7 @@ impl<M: Material> Material for Cutout<M> {
     fn needs(&self) -> Needs {
         let mut needs = self.base.needs();
         // What is solid everywhere has no holes to look for.
-        if self.vertex_alpha || self.solid(self.opacity.min()) < 1.0 {
+        if self.has_holes() {
             needs |= Needs::CUTOUTS | parameter::scalar_needs(&self.opacity);
             needs.set(Needs::VERTEX_COLORS, self.vertex_alpha || needs.contains(Needs::VERTEX_COLORS));
         }

@@ -217,7 +217,7 @@ impl<'a> Accessors<'a> {
             Which::All => a.count.0,
             Which::These(places) => places.len() as u64,
         };
-        self.take(index, asked)?;
+        self.charge(index, asked)?;
         let size = kind.size().saturating_mul(components);
         let mut out = Vec::new();
         let mut reserve = || {
@@ -247,7 +247,7 @@ impl<'a> Accessors<'a> {
     }
 
     /// Takes elements out of the budget.
-    fn take(&self, index: Index<Accessor>, asked: u64) -> Result<(), GltfError> {
+    pub(super) fn charge(&self, index: Index<Accessor>, asked: u64) -> Result<(), GltfError> {
         let left = self.left.get();
         match left.checked_sub(asked) {
             Some(rest) => {
@@ -280,7 +280,7 @@ impl<'a> Accessors<'a> {
             return Err(self.fail(index, "its sparse indices are of no known type".into()));
         };
         let (at, values) = (&s.indices, &s.values);
-        self.take(index, s.count.0)?;
+        self.charge(index, s.count.0)?;
         let places =
             self.elements(index, at.buffer_view.value(), at.byte_offset.0, kind.0.size(), s.count.0)?;
         let values =

@@ -1,6 +1,7 @@
 //! From bytes to a checked document with its buffers.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 
 use gltf::json::Root;
 use serde_json::Value;
@@ -187,11 +188,21 @@ fn check_images(
     options: &LoadOptions<'_>,
     judge: &mut impl FnMut(Vec<Issue>) -> Result<(), GltfError>,
 ) -> Result<(), GltfError> {
+    let mut left = options.limits.file_bytes;
+    let mut seen = HashSet::new();
     for (i, image) in list(views.root, "images").iter().enumerate() {
+        if options.progress.cancelled() {
+            return Err(GltfError::Cancelled(name.into()));
+        }
         let view = image.get("bufferView").and_then(Value::as_u64).and_then(|v| usize::try_from(v).ok());
         let bytes = match image.get("uri").and_then(Value::as_str) {
-            Some(uri) => match uri::read(uri, resolver, options.limits.file_bytes) {
-                Ok(bytes) => Some(Cow::Owned(bytes)),
+            // A file that many images name is looked at once.
+            Some(uri) if !seen.insert(uri) => None,
+            Some(uri) => match uri::read(uri, resolver, left) {
+                Ok(bytes) => {
+                    left = left.saturating_sub(bytes.len() as u64);
+                    Some(Cow::Owned(bytes))
+                }
                 // Under a lenient load it is left out, and said so, where it is used.
                 Err(_) if options.lenient => None,
                 Err(source) => {

@@ -61,7 +61,7 @@ pub(super) fn used(file: &str, names: &[String]) -> Vec<String> {
 
 /// One extension of an object. The checks have seen it; one that still has another shape counts as absent.
 pub(super) fn get<T: DeserializeOwned>(all: Option<&Map<String, Value>>, name: &str) -> Option<T> {
-    serde_json::from_value(all?.get(name)?.clone()).ok()
+    T::deserialize(all?.get(name)?).ok()
 }
 
 fn one() -> f32 {

@@ -1,5 +1,6 @@
 //! Textures: images decoded on first use, once for each way of reading them.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -113,22 +114,21 @@ impl<'a> Images<'a> {
         }))
     }
 
-    fn bytes(&self, index: usize) -> Result<std::borrow::Cow<'_, [u8]>, GltfError> {
+    fn bytes(doc: &'a Document<'a>, index: usize) -> Result<Cow<'a, [u8]>, GltfError> {
         let pointer = format!("/images/{index}");
-        let missing =
-            || self.doc.unusable(pointer.clone(), "it names neither a file nor a buffer view".into());
-        let image = self.doc.root.images.get(index).ok_or_else(missing)?;
+        let missing = || doc.unusable(pointer.clone(), "it names neither a file nor a buffer view".into());
+        let image = doc.root.images.get(index).ok_or_else(missing)?;
         if let Some(view) = image.buffer_view {
-            return self.doc.view(view.value()).map(Into::into).ok_or_else(missing);
+            return doc.view(view.value()).map(Into::into).ok_or_else(missing);
         }
         let name = image.uri.as_deref().ok_or_else(missing)?;
-        uri::read(name, self.doc.resolver, self.doc.limits().file_bytes).map(Into::into).map_err(|source| {
-            GltfError::Resource { file: self.doc.name.into(), pointer: pointer.clone(), source }
-        })
+        uri::read(name, doc.resolver, doc.limits().file_bytes)
+            .map(Into::into)
+            .map_err(|source| GltfError::Resource { file: doc.name.into(), pointer: pointer.clone(), source })
     }
 
     fn decode(&mut self, index: usize, encoding: Encoding) -> Result<ImageTexture, GltfError> {
-        let bytes = self.bytes(index)?.into_owned();
+        let bytes = Self::bytes(self.doc, index)?;
         decode_texture(&bytes, encoding, &mut self.budget)
             .map_err(|e| self.doc.unusable(format!("/images/{index}"), e.to_string()))
     }

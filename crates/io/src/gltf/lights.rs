@@ -5,7 +5,7 @@
 //! a lamp of 100 W is written as 683 · 100 / 4π cd, and comes back as 100 / 4π W·sr⁻¹. Emissive materials have no such
 //! factor: their numbers are radiance, W·m⁻²·sr⁻¹.
 
-use etendue_core::glam::{DMat3, DMat4};
+use etendue_core::glam::{DMat3, DMat4, DVec4};
 use etendue_core::{Spectrum, Transform, Vec3A, vector};
 use etendue_light::{DirectionalLight, PointLight, SpotLight};
 use etendue_scene::SceneBuilder;
@@ -83,11 +83,19 @@ pub(super) fn cameras(doc: &Document<'_>, walked: &Walked, warnings: &mut Vec<St
         let mut warn = |what: &str| {
             warnings.push(format!("{}, at '/nodes/{node}': its camera {what}; left out", doc.name));
         };
-        // Scale means nothing to a camera, and a scale of zero along one axis must not take the view away.
-        let axes = [m.x_axis, m.y_axis, m.z_axis].map(|a| a.truncate().normalize_or_zero());
-        let to_world =
-            Transform::from_f64(DMat3::from_cols_array_2d(&axes.map(|a| a.to_array())), m.w_axis.truncate());
-        let Ok(to_world) = to_world else {
+        // Scale means nothing to a camera, not even a negative one: its axes are set up again from where it looks and
+        // which way is up.
+        let unit = |a: DVec4| a.truncate().try_normalize();
+        let (right, up, back) = (unit(m.x_axis), unit(m.y_axis), unit(m.z_axis));
+        let back = back.or_else(|| right?.cross(up?).try_normalize());
+        let right = back.and_then(|b| up.and_then(|u| u.cross(b).try_normalize()).or(right));
+        let to_world = match (right, back) {
+            (Some(x), Some(z)) => {
+                Transform::from_f64(DMat3::from_cols(x, z.cross(x), z), m.w_axis.truncate()).ok()
+            }
+            _ => None,
+        };
+        let Some(to_world) = to_world else {
             warn("is placed by a matrix that flattens space");
             continue;
         };

@@ -17,7 +17,7 @@ use super::GltfError;
 use super::document::Document;
 use super::extensions::{self, EmissiveStrength, Ior, Specular, Transmission, Volume};
 use super::images::{Images, TextureRef};
-use super::mesh::Wanted;
+use super::mesh::{Colors, Wanted};
 
 /// A material in the scene, and what belongs to the geometry that has it.
 #[derive(Clone)]
@@ -30,15 +30,16 @@ pub(super) struct Made {
 pub(super) struct Materials<'a> {
     doc: &'a Document<'a>,
     pub(super) images: Images<'a>,
-    /// By index in the file, and whether the vertices have colours.
-    made: HashMap<(Option<usize>, bool), Made>,
+    /// By index in the file, and the colours at the vertices.
+    made: HashMap<(Option<usize>, Colors), Made>,
+    wanted: HashMap<Option<usize>, Wanted>,
     default: material::Material,
 }
 
 impl<'a> Materials<'a> {
     pub(super) fn new(doc: &'a Document<'a>) -> Self {
-        let (made, default) = Default::default();
-        Self { doc, images: Images::new(doc), made, default }
+        let (made, wanted, default) = Default::default();
+        Self { doc, images: Images::new(doc), made, wanted, default }
     }
 
     pub(super) fn count(&self) -> u64 {
@@ -50,7 +51,10 @@ impl<'a> Materials<'a> {
     }
 
     /// What a material reads of the meshes that have it.
-    pub(super) fn wanted(&self, index: Option<usize>, warnings: &mut Vec<String>) -> Wanted {
+    pub(super) fn wanted(&mut self, index: Option<usize>, warnings: &mut Vec<String>) -> Wanted {
+        if let Some(known) = self.wanted.get(&index) {
+            return known.clone();
+        }
         let m = self.of(index);
         let mut sets = Vec::new();
         each_texture(m, |r| {
@@ -68,29 +72,32 @@ impl<'a> Materials<'a> {
             ));
             sets.truncate(2);
         }
-        let tangents_of = m.normal_texture.as_ref().map(|n| normal_ref(n).set());
-        Wanted { sets, tangents_of }
+        let unlit = others(m).is_some_and(|o| o.contains_key("KHR_materials_unlit"));
+        let tangents_of = m.normal_texture.as_ref().filter(|_| !unlit).map(|n| normal_ref(n).set());
+        let wanted = Wanted { sets, tangents_of };
+        self.wanted.insert(index, wanted.clone());
+        wanted
     }
 
     /// The material, made if it was not yet.
     pub(super) fn get(
         &mut self,
         index: Option<usize>,
-        colored: bool,
+        colors: Colors,
         builder: &mut SceneBuilder,
         warnings: &mut Vec<String>,
     ) -> Result<Made, GltfError> {
-        if let Some(made) = self.made.get(&(index, colored)) {
+        if let Some(made) = self.made.get(&(index, colors)) {
             return Ok(made.clone());
         }
         let wanted = self.wanted(index, &mut Vec::new());
         let m = self.of(index).clone();
         let place = index.map_or(self.doc.name.into(), |i| format!("{}, at '/materials/{i}'", self.doc.name));
         let (material, emission) =
-            Maker { images: &mut self.images, doc: self.doc, m: &m, wanted, colored, place, warnings }
+            Maker { images: &mut self.images, doc: self.doc, m: &m, wanted, colors, place, warnings }
                 .make()?;
         let made = Made { id: builder.material_arc(material), emission };
-        self.made.insert((index, colored), made.clone());
+        self.made.insert((index, colors), made.clone());
         Ok(made)
     }
 }
@@ -107,16 +114,17 @@ fn others(m: &material::Material) -> Option<&Map<String, Value>> {
     m.extensions.as_ref().map(|e| &e.others)
 }
 
-/// Every texture that a material reads, in the order of their importance for texture coordinates.
+/// Every texture that a material reads. The normal map comes first: the geometry's own tangents lie along the set in
+/// the first slot.
 fn each_texture(m: &material::Material, mut see: impl FnMut(&TextureRef<'_>)) {
+    if let Some(n) = &m.normal_texture {
+        see(&normal_ref(n));
+    }
     let p = &m.pbr_metallic_roughness;
     for info in
         [&p.base_color_texture, &p.metallic_roughness_texture, &m.emissive_texture].into_iter().flatten()
     {
         see(&info.into());
-    }
-    if let Some(n) = &m.normal_texture {
-        see(&normal_ref(n));
     }
     if let Some(s) = extensions::get::<Specular>(others(m), "KHR_materials_specular") {
         for info in [&s.specular_texture, &s.specular_color_texture].into_iter().flatten() {
@@ -136,12 +144,16 @@ struct Maker<'a, 'd> {
     doc: &'a Document<'d>,
     m: &'a material::Material,
     wanted: Wanted,
-    colored: bool,
+    colors: Colors,
     place: String,
     warnings: &'a mut Vec<String>,
 }
 
 impl Maker<'_, '_> {
+    fn colored(&self) -> bool {
+        self.colors != Colors::None
+    }
+
     fn image(&mut self, r: &TextureRef<'_>, encoding: Encoding) -> Result<Option<ImageUse>, GltfError> {
         let slot = self.wanted.sets.iter().position(|&s| s == r.set()).unwrap_or(0);
         self.images.get(r, u8::try_from(slot).unwrap_or(0), encoding, self.warnings)
@@ -188,7 +200,7 @@ impl Maker<'_, '_> {
         let base = [r, g, b].map(|c| if c > 0.0 { c.min(1.0) } else { 0.0 });
         let base = self.color(base, pbr.base_color_texture.as_ref())?;
         if others(m).is_some_and(|o| o.contains_key("KHR_materials_unlit")) {
-            if self.colored {
+            if self.colored() {
                 self.warn("vertex colours of unlit surfaces are not built; left out");
             }
             let shown = self.with_opacity(Arc::new(Absorber))?;
@@ -230,10 +242,19 @@ impl Maker<'_, '_> {
 
         let is = |tex: &ScalarTex, v: f32| matches!(tex, ScalarTex::Constant(c) if *c == v);
         let opaque = is(&transmission, 0.0);
-        let white = matches!(base, Tex::Constant(c) if c == Spectrum::ONE) && !self.colored;
+        let white = matches!(base, Tex::Constant(c) if c == Spectrum::ONE) && !self.colored();
+        if s.is_some() && !opaque {
+            self.warn(
+                "KHR_materials_specular does not act on the share of light that KHR_materials_transmission lets \
+                 through: it reflects by its ior alone",
+            );
+        }
+        if absorption != Spectrum::BLACK && self.m.alpha_mode != Checked::Valid(AlphaMode::Opaque) {
+            self.warn("a body with holes in its surface absorbs nothing");
+        }
         let meaning = self.doc.options.materials;
         if opaque && is(&metallic, 0.0) && is(&specular, 0.0) {
-            return Ok(Arc::new(Diffuse { vertex_color: self.colored, ..Diffuse::new(base) }));
+            return Ok(Arc::new(Diffuse { vertex_color: self.colored(), ..Diffuse::new(base) }));
         }
         if is(&transmission, 1.0) && is(&metallic, 0.0) && is(&roughness, 0.0) && white && !thin && ior >= 1.0
         {
@@ -242,13 +263,13 @@ impl Maker<'_, '_> {
         if meaning == Meaning::GltfB && is(&metallic, 1.0) && roughness.is_constant() {
             let metal = Metal {
                 masking: Masking::Separable,
-                vertex_color: self.colored,
+                vertex_color: self.colored(),
                 ..Metal::schlick(base, roughness)
             };
             return Ok(Arc::new(metal));
         }
         Ok(Arc::new(Principled {
-            vertex_color: self.colored,
+            vertex_color: self.colored(),
             ior,
             specular,
             specular_color,
@@ -289,11 +310,12 @@ impl Maker<'_, '_> {
             }
             _ => factor.into(),
         };
+        let vertex_alpha = self.colors == Colors::WithAlpha;
         let solid = opacity.is_constant() && opacity.min() >= threshold.unwrap_or(1.0);
-        if solid && !self.colored {
+        if solid && !vertex_alpha {
             return Ok(base);
         }
-        Ok(Arc::new(Cutout { base, opacity, threshold, vertex_alpha: self.colored }))
+        Ok(Arc::new(Cutout { base, opacity, threshold, vertex_alpha }))
     }
 
     fn emission(&mut self) -> Result<Option<Emission>, GltfError> {

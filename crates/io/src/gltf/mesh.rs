@@ -3,9 +3,10 @@
 use etendue_core::glam::{DMat3, DMat4, DVec3};
 use etendue_core::{Vec2, Vec3, Vec4};
 use etendue_geometry::TriangleMesh;
-use gltf::json::Index;
+use gltf::json::accessor::Type;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
+use gltf::json::{Accessor, Index};
 
 use super::accessor::{Accessors, Which};
 use super::document::Document;
@@ -29,6 +30,14 @@ pub(super) struct Vertices {
     pub(super) uv: Vec<Vec<[f32; 2]>>,
     pub(super) colors: Vec<[f32; 4]>,
     pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// The colours at the vertices of a primitive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Colors {
+    None,
+    Opaque,
+    WithAlpha,
 }
 
 /// How a primitive is moved before it becomes a mesh.
@@ -99,9 +108,14 @@ impl Vertices {
         for i in 0..self.positions.len() {
             self.transform_one(i, m);
         }
-        // A mirror turns the order of corners around; the front stays the front.
-        if DMat3::from_mat4(*m).determinant() < 0.0 {
-            for t in &mut self.triangles {
+        let mirrors = DMat3::from_mat4(*m).determinant() < 0.0;
+        self.turn(|_| mirrors);
+    }
+
+    /// A mirror turns the order of corners around; the front stays the front. Says of each vertex whether it was mirrored.
+    fn turn(&mut self, mirrored: impl Fn(u32) -> bool) {
+        for t in &mut self.triangles {
+            if t.iter().filter(|&&i| mirrored(i)).count() > 1 {
                 t.swap(1, 2);
             }
         }
@@ -142,12 +156,29 @@ pub(super) fn is_surface(p: &Primitive) -> bool {
     matches!(p.mode, Checked::Valid(Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan))
 }
 
-/// Whether a primitive has colours at its vertices.
-pub(super) fn has_colors(p: &Primitive) -> bool {
-    p.attributes.contains_key(&Checked::Valid(Semantic::Colors(0)))
+/// Whether a primitive hangs on joints.
+pub(super) fn is_skinned(p: &Primitive) -> bool {
+    p.attributes.contains_key(&Checked::Valid(Semantic::Joints(0)))
+        && p.attributes.contains_key(&Checked::Valid(Semantic::Weights(0)))
+}
+
+/// Whether more than four joints pull at a vertex.
+pub(super) fn has_more_joints(p: &Primitive) -> bool {
+    p.attributes.contains_key(&Checked::Valid(Semantic::Joints(1)))
+}
+
+/// What colours a primitive has at its vertices.
+pub(super) fn colors(doc: &Document<'_>, p: &Primitive) -> Colors {
+    let accessor = p.attributes.get(&Checked::Valid(Semantic::Colors(0)));
+    match accessor.map(|a| doc.root.accessors.get(a.value()).map(|a| a.type_)) {
+        None => Colors::None,
+        Some(Some(Checked::Valid(Type::Vec3))) => Colors::Opaque,
+        Some(_) => Colors::WithAlpha,
+    }
 }
 
 /// One primitive of `/meshes/{mesh}` as a mesh; `None` where it has no triangle.
+#[allow(clippy::too_many_arguments)]
 pub(super) fn build(
     doc: &Document<'_>,
     accessors: &Accessors<'_>,
@@ -156,13 +187,14 @@ pub(super) fn build(
     weights: &[f32],
     wanted: &Wanted,
     pose: &Pose<'_>,
+    warnings: &mut Vec<String>,
 ) -> Result<Option<TriangleMesh>, GltfError> {
     let fail = |message: String| doc.unusable(pointer.into(), message);
     let attribute = |s: Semantic| p.attributes.get(&Checked::Valid(s)).copied();
     let Some(positions) = attribute(Semantic::Positions) else { return Ok(None) };
     let count = usize::try_from(accessors.count(positions)).unwrap_or(usize::MAX);
     accessors.vouch::<3>(positions)?;
-    let mut v = Vertices { triangles: triangles(accessors, p, count)?, ..Vertices::default() };
+    let mut v = Vertices { triangles: triangles(accessors, p, positions, count)?, ..Vertices::default() };
     if v.triangles.is_empty() {
         return Ok(None);
     }
@@ -177,10 +209,6 @@ pub(super) fn build(
         n => Err(fail(format!("it has {n} {what} for {count} vertices"))),
     };
     v.positions = accessors.floats::<3>(positions, which)?;
-    if !v.positions.iter().flatten().all(|c| c.is_finite()) && !doc.options.lenient {
-        let message = "a vertex is not a finite number; a lenient load (--lenient) leaves its triangles out";
-        return Err(fail(message.into()));
-    }
     if let Some(index) = attribute(Semantic::Normals) {
         v.normals = accessors.floats::<3>(fits("normals", index)?, which)?;
     }
@@ -198,41 +226,57 @@ pub(super) fn build(
     if let Some(index) = attribute(Semantic::Tangents).filter(|_| needs_tangents) {
         v.tangents = accessors.floats::<4>(fits("tangents", index)?, which)?;
     }
-    apply_targets(accessors, p, weights, which, &mut v)?;
+    if apply_targets(accessors, p, weights, which, &mut v)? {
+        // They lay along the surface as it was.
+        v.tangents.clear();
+    }
     if let Pose::Skinned(joints) = pose {
         apply_skin(accessors, p, joints, which, &mut v)?;
     }
-    if let Some(set) = wanted.tangents_of.filter(|_| v.tangents.is_empty()) {
-        make_tangents(&mut v, wanted, set);
+    if let Some(set) = wanted.tangents_of.filter(|_| v.tangents.is_empty())
+        && !make_tangents(&mut v, wanted, set)
+    {
+        warnings.push(format!(
+            "{}, at '{pointer}': too many triangles meet in one point for MikkTSpace; tangents follow the texture \
+             coordinates of each triangle",
+            doc.name
+        ));
     }
     if let Pose::Baked(m) = pose {
         v.bake(m);
     }
+    if !v.positions.iter().flatten().all(|c| c.is_finite()) && !doc.options.lenient {
+        let message = "a vertex is not a finite number where it is placed; a lenient load (--lenient) leaves its \
+                       triangles out";
+        return Err(fail(message.into()));
+    }
     v.into_mesh().map(Some).map_err(|e| fail(e.to_string()))
 }
 
-fn make_tangents(v: &mut Vertices, wanted: &Wanted, set: u32) {
+/// False where it cannot be done. Without normals the mesh is flat, and so is each triangle's tangent: the geometry
+/// derives it by itself, from the set in the first slot, which is the normal map's.
+fn make_tangents(v: &mut Vertices, wanted: &Wanted, set: u32) -> bool {
     let slot = wanted.sets.iter().position(|&s| s == set);
-    let Some(uv) = slot.and_then(|s| v.uv.get(s)).filter(|uv| !uv.is_empty()).cloned() else { return };
-    // Without normals the mesh is flat, and so is each triangle's tangent: the geometry derives it by itself.
-    if !v.normals.is_empty() {
-        tangents::generate(v, &uv);
-    }
+    let Some(uv) = slot.and_then(|s| v.uv.get(s)).filter(|uv| !uv.is_empty()).cloned() else { return true };
+    v.normals.is_empty() || tangents::generate(v, &uv)
 }
 
+/// Whether a target has moved anything.
 fn apply_targets(
     accessors: &Accessors<'_>,
     p: &Primitive,
     weights: &[f32],
     which: Which<'_>,
     v: &mut Vertices,
-) -> Result<(), GltfError> {
+) -> Result<bool, GltfError> {
+    let mut moved = false;
     for (target, &weight) in p.targets.iter().flatten().zip(weights).filter(|(_, w)| **w != 0.0) {
         let read =
             |index: Option<Index<_>>| index.map_or(Ok(Vec::new()), |i| accessors.floats::<3>(i, which));
+        moved = true;
         skin::morph(v, weight, &read(target.positions)?, &read(target.normals)?);
     }
-    Ok(())
+    Ok(moved)
 }
 
 fn apply_skin(
@@ -248,15 +292,24 @@ fn apply_skin(
     };
     let influences: Vec<_> =
         accessors.joints(j, which)?.into_iter().zip(accessors.floats::<4>(w, which)?).collect();
-    skin::pose(v, joints, &influences);
+    let mirrored = skin::pose(v, joints, &influences);
+    v.turn(|i| mirrored.get(i as usize).copied().unwrap_or(false));
     Ok(())
 }
 
 /// The corners of all triangles, strips and fans taken apart with their winding.
-fn triangles(accessors: &Accessors<'_>, p: &Primitive, count: usize) -> Result<Vec<[u32; 3]>, GltfError> {
+fn triangles(
+    accessors: &Accessors<'_>,
+    p: &Primitive,
+    positions: Index<Accessor>,
+    count: usize,
+) -> Result<Vec<[u32; 3]>, GltfError> {
     let indices: Vec<u32> = match p.indices {
         Some(index) => accessors.indices(index)?,
-        None => (0..u32::try_from(count).unwrap_or(u32::MAX)).collect(),
+        None => {
+            accessors.charge(positions, count as u64)?;
+            (0..u32::try_from(count).unwrap_or(u32::MAX)).collect()
+        }
     };
     let triple = |w: &[u32]| <[u32; 3]>::try_from(w).ok();
     Ok(match p.mode {

@@ -2,7 +2,7 @@
 //!
 //! The document is checked against the specification first (`check`), then read by the typed layer of the `gltf` crate;
 //! buffers, accessors, URIs and images are read by code of our own under one [`Limits`](crate::Limits). What nothing in
-//! the scene uses is not read: meshes, materials, images, and of a mesh the attributes that its material does not look at.
+//! the scene uses is not decoded: meshes, materials, images, and of a mesh the attributes that its material does not look at.
 //!
 //! A mesh that stands in one place is worked into world space, so that a scene without instances has no second level.
 
@@ -71,6 +71,7 @@ pub fn read(
         materials: Materials::new(&doc),
         builder,
         report,
+        emitters: 0,
     };
     loader.meshes(&walked)?;
     let Loader { materials, mut report, .. } = loader;
@@ -104,6 +105,8 @@ struct Loader<'a, 'b> {
     materials: Materials<'a>,
     builder: &'b mut SceneBuilder,
     report: LoadReport,
+    /// Emitting triangles so far, those of an instance counted again.
+    emitters: u64,
 }
 
 impl Loader<'_, '_> {
@@ -116,14 +119,18 @@ impl Loader<'_, '_> {
         for p in walked.meshes.iter().filter(|p| is_plain(p)) {
             places.entry(p.mesh).or_default().push(p);
         }
+        let mut skinned = None;
         for p in &walked.meshes {
             self.doc.go_on()?;
             if !is_plain(p) {
-                self.own(p, walked)?;
+                // A skin takes the mesh into the world whatever its node's placement: copies would coincide.
+                if skinned != Some(p.node) {
+                    skinned = self.own(p, walked)?.then_some(p.node);
+                }
             } else if let Some(all) = places.remove(&p.mesh) {
                 match all[..] {
                     [one] => {
-                        self.add(one, &Pose::Baked(&one.to_world), true)?;
+                        self.add(one, &Pose::Baked(&one.to_world), None)?;
                     }
                     _ => self.instances(&all)?,
                 }
@@ -138,24 +145,25 @@ impl Loader<'_, '_> {
         Ok(())
     }
 
-    /// A mesh whose node gives it a skin or weights.
-    fn own(&mut self, p: &Placement, walked: &Walked) -> Result<(), GltfError> {
-        match self.doc.root.nodes.get(p.node).and_then(|n| n.skin) {
+    /// A mesh whose node gives it a skin or weights; whether it was a skin.
+    fn own(&mut self, p: &Placement, walked: &Walked) -> Result<bool, GltfError> {
+        let skin = self.doc.root.nodes.get(p.node).and_then(|n| n.skin);
+        match skin {
             Some(skin) => {
                 let joints = skin::joints(self.doc, &self.accessors, skin.value(), &walked.world)?;
-                self.add(p, &Pose::Skinned(&joints), true)?;
+                self.add(p, &Pose::Skinned(&joints), None)?;
             }
             None => {
-                self.add(p, &Pose::Baked(&p.to_world), true)?;
+                self.add(p, &Pose::Baked(&p.to_world), None)?;
             }
         }
-        Ok(())
+        Ok(skin.is_some())
     }
 
     /// One mesh in many places.
     fn instances(&mut self, all: &[&Placement]) -> Result<(), GltfError> {
         let Some(first) = all.first() else { return Ok(()) };
-        let geometry = self.add(first, &Pose::Object, false)?;
+        let geometry = self.add(first, &Pose::Object, Some(all.len() as u64))?;
         if geometry.is_empty() {
             return Ok(());
         }
@@ -175,8 +183,8 @@ impl Loader<'_, '_> {
         Ok(())
     }
 
-    /// Adds the primitives of a mesh, standing in the world or to be grouped.
-    fn add(&mut self, p: &Placement, pose: &Pose<'_>, direct: bool) -> Result<Vec<GeomId>, GltfError> {
+    /// Adds the primitives of a mesh, standing in the world or to be grouped and placed so many times.
+    fn add(&mut self, p: &Placement, pose: &Pose<'_>, copies: Option<u64>) -> Result<Vec<GeomId>, GltfError> {
         let Some(mesh) = self.doc.root.meshes.get(p.mesh) else {
             let message = format!("there is no mesh {}", p.mesh);
             return Err(self.doc.unusable(format!("/nodes/{}/mesh", p.node), message));
@@ -185,7 +193,7 @@ impl Loader<'_, '_> {
         let weights = node.and_then(|n| n.weights.as_deref()).or(mesh.weights.as_deref()).unwrap_or(&[]);
         let mut out = Vec::new();
         for index in 0..mesh.primitives.len() {
-            out.extend(self.primitive(mesh, p.mesh, index, weights, pose, direct)?);
+            out.extend(self.primitive(mesh, p, index, weights, pose, copies)?);
         }
         Ok(out)
     }
@@ -193,32 +201,56 @@ impl Loader<'_, '_> {
     fn primitive(
         &mut self,
         mesh: &Mesh,
-        mesh_index: usize,
+        placement: &Placement,
         index: usize,
         weights: &[f32],
         pose: &Pose<'_>,
-        direct: bool,
+        copies: Option<u64>,
     ) -> Result<Option<GeomId>, GltfError> {
         let Some(p) = mesh.primitives.get(index) else { return Ok(None) };
-        let pointer = format!("/meshes/{mesh_index}/primitives/{index}");
+        let pointer = format!("/meshes/{}/primitives/{index}", placement.mesh);
         if !mesh::is_surface(p) {
             self.report.skipped.push(format!("{pointer}: points and lines are not rendered"));
             return Ok(None);
         }
         let material = self.material_of(p);
         let wanted = self.materials.wanted(material, &mut self.report.warnings);
-        let Some(made) = mesh::build(self.doc, &self.accessors, &pointer, p, weights, &wanted, pose)? else {
+        let warnings = &mut self.report.warnings;
+        // What does not hang on joints stands where its node does.
+        let stands = Pose::Baked(&placement.to_world);
+        let skinned = matches!(pose, Pose::Skinned(_));
+        if skinned && mesh::has_more_joints(p) {
+            warnings.push(format!(
+                "{}, at '{pointer}': only the first four joints of a vertex count",
+                self.doc.name
+            ));
+        }
+        let pose = if skinned && !mesh::is_skinned(p) { &stands } else { pose };
+        let built = mesh::build(self.doc, &self.accessors, &pointer, p, weights, &wanted, pose, warnings)?;
+        let Some(made) = built else {
             self.report.skipped.push(format!("{pointer}: it has no triangle"));
             return Ok(None);
         };
-        let colored = mesh::has_colors(p);
-        let material = self.materials.get(material, colored, self.builder, &mut self.report.warnings)?;
+        let colors = mesh::colors(self.doc, p);
+        let material = self.materials.get(material, colors, self.builder, warnings)?;
+        let triangles = made.triangle_count() as u64;
         self.report.meshes = self.report.meshes.saturating_add(1);
-        self.report.triangles = self.report.triangles.saturating_add(made.triangle_count() as u64);
-        let geom = if direct {
-            self.builder.add(made, material.id)
-        } else {
-            self.builder.add_grouped(made, material.id)
+        self.report.triangles = self.report.triangles.saturating_add(triangles);
+        if material.emission.is_some() {
+            self.emitters = self.emitters.saturating_add(triangles.saturating_mul(copies.unwrap_or(1)));
+            if self.emitters > self.doc.limits().emitters {
+                return Err(GltfError::Limit {
+                    file: self.doc.name.into(),
+                    pointer,
+                    what: "emitting triangles, those of instances counted again",
+                    asked: self.emitters,
+                    limit: self.doc.limits().emitters,
+                });
+            }
+        }
+        let geom = match copies {
+            None => self.builder.add(made, material.id),
+            Some(_) => self.builder.add_grouped(made, material.id),
         };
         if let Some(emission) = material.emission {
             self.builder.emit(geom, emission);

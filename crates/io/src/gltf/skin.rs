@@ -1,6 +1,6 @@
 //! The pose that the file itself is in: morph targets and skins, applied to the vertices.
 
-use etendue_core::glam::{DMat4, DVec3};
+use etendue_core::glam::{DMat3, DMat4, DVec3};
 
 use super::GltfError;
 use super::accessor::{Accessors, Which};
@@ -40,11 +40,14 @@ pub(super) fn morph(vertices: &mut Vertices, weight: f32, positions: &[[f32; 3]]
     }
 }
 
-/// Moves the vertices to where their joints take them: into world space.
-pub(super) fn pose(vertices: &mut Vertices, joints: &[DMat4], influences: &[([u32; 4], [f32; 4])]) {
-    let count = vertices.positions.len();
-    for i in 0..count {
-        let Some((ids, weights)) = influences.get(i) else { continue };
+/// Moves the vertices to where their joints take them: into world space. Says of each whether it was mirrored.
+pub(super) fn pose(
+    vertices: &mut Vertices,
+    joints: &[DMat4],
+    influences: &[([u32; 4], [f32; 4])],
+) -> Vec<bool> {
+    let mut mirrored = vec![false; influences.len()];
+    for (i, ((ids, weights), mirrored)) in influences.iter().zip(&mut mirrored).enumerate() {
         let total: f64 = weights.iter().map(|w| f64::from(*w)).sum();
         if !(total > 0.0) {
             continue;
@@ -53,8 +56,10 @@ pub(super) fn pose(vertices: &mut Vertices, joints: &[DMat4], influences: &[([u3
         for (id, w) in ids.iter().zip(weights) {
             m += joints.get(*id as usize).copied().unwrap_or(DMat4::IDENTITY) * (f64::from(*w) / total);
         }
+        *mirrored = DMat3::from_mat4(m).determinant() < 0.0;
         vertices.transform_one(i, &m);
     }
+    mirrored
 }
 
 /// A direction through the linear part.
