@@ -30,6 +30,7 @@ pub fn limits() -> Limits {
         json_values: 1 << 18,
         instances: 1 << 16,
         vertices: 1 << 20,
+        emitters: 1 << 14,
         ..Limits::default()
     }
 }

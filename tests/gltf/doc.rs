@@ -1,6 +1,7 @@
 //! Documents made in code: JSON and one buffer.
 
 use etendue::core::glam::{Vec2, Vec3};
+use etendue::core::math;
 use serde_json::{Value, json};
 
 /// A glTF document in the making.
@@ -42,7 +43,7 @@ impl Doc {
 
     /// A buffer view, aligned to four bytes.
     pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
-        while self.bin.len() % 4 != 0 {
+        while !self.bin.len().is_multiple_of(4) {
             self.bin.push(0);
         }
         let offset = self.bin.len();
@@ -170,7 +171,8 @@ pub(crate) fn ball(around: u16, down: u16) -> Shape {
         for i in 0..=around {
             let (u, v) = (f32::from(i) / f32::from(around), f32::from(j) / f32::from(down));
             let (phi, theta) = (u * std::f32::consts::TAU, v * std::f32::consts::PI);
-            let p = Vec3::new(theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos());
+            let ((st, ct), (sp, cp)) = (math::sin_cos(theta), math::sin_cos(phi));
+            let p = Vec3::new(st * sp, ct, st * cp);
             s.positions.push(p.to_array());
             s.normals.push(p.normalize().to_array());
             s.uv.push(Vec2::new(u, v).to_array());

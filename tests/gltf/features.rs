@@ -1,6 +1,7 @@
 //! The sheet of features: one scene with a cell for each thing that the loader builds, row by row as
 //! `docs/gltf.md` lists them.
 
+use etendue::core::math;
 use serde_json::{Value, json};
 
 use crate::doc::{Doc, ball, quad};
@@ -61,7 +62,7 @@ fn with(mut material: Value, extension: &str, value: Value) -> Value {
 }
 
 fn checker(n: u32, a: [u8; 4], b: [u8; 4]) -> Vec<[u8; 4]> {
-    (0..n * n).map(|i| if (i % n + i / n) % 2 == 0 { a } else { b }).collect()
+    (0..n * n).map(|i| if (i % n + i / n).is_multiple_of(2) { a } else { b }).collect()
 }
 
 /// Round bumps, as a normal map.
@@ -192,7 +193,7 @@ fn special(s: &mut Sheet) {
     let around: Vec<[f32; 3]> = (0..8)
         .map(|i| {
             let a = i as f32 / 8.0 * std::f32::consts::TAU;
-            [0.75 * a.cos(), 0.75 * a.sin(), 0.0]
+            [0.75 * math::cos(a), 0.75 * math::sin(a), 0.0]
         })
         .collect();
     let t = s.doc.floats(&around);
@@ -229,7 +230,7 @@ fn around(s: &mut Sheet) {
     // Above and in front, looking down and back: turned about x by 180° − 50°.
     let half = 65f32.to_radians();
     s.doc.node(json!({"name": "lamp", "mesh": lamp, "translation": [-3, 11, 10], "scale": [4, 3, 1],
-        "rotation": [half.sin(), 0.0, 0.0, half.cos()]}));
+        "rotation": [math::sin(half), 0.0, 0.0, math::cos(half)]}));
     s.doc.uses("KHR_lights_punctual");
     let candela = 683.0;
     s.doc.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [

@@ -1,5 +1,6 @@
 //! Nodes, instances, and what is refused.
 
+use etendue::core::math;
 use etendue::io::LoadOptions;
 use etendue::prelude::*;
 use serde_json::json;
@@ -143,7 +144,7 @@ fn a_fan_beyond_measure_gets_tangents_without_the_generator() {
     fan.positions = vec![[0.0; 3]];
     for i in 0..rim {
         let a = f32::from(i) / f32::from(rim - 1) * 6.0;
-        fan.positions.push([a.cos(), a.sin(), 0.0]);
+        fan.positions.push([math::cos(a), math::sin(a), 0.0]);
     }
     fan.normals = vec![[0.0, 0.0, 1.0]; fan.positions.len()];
     fan.uv = fan.positions.iter().map(|p| [p[0], -p[1]]).collect();

@@ -34,7 +34,7 @@ fn read(doc: &Doc) -> Read {
 impl Read {
     /// The surface that a ray from `o` along `d` meets.
     fn see(&self, o: Vec3A, d: Vec3A) -> Option<Surface> {
-        let ray = Ray::new(o, d.normalize());
+        let ray = Ray::new(o, etendue::core::vector::normalize(d));
         let hit = self.scene.intersect(&ray, 0)?;
         Some(self.scene.surface(&ray, &hit, 0.0))
     }

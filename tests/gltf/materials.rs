@@ -1,6 +1,7 @@
 //! Materials, textures, opacity and tangents.
 
 use etendue::bsdf::Lobes;
+use etendue::core::math;
 use etendue::io::LoadOptions;
 use etendue::prelude::*;
 use serde_json::{Value, json};
@@ -283,7 +284,7 @@ fn a_volume_absorbs_by_the_colour_at_its_distance() {
         let r = read(&glass(Some(volume.clone()), base));
         let s = r.at(0.0, 0.0);
         let sigma = r.scene.material(&s).expect("material").absorption().expect("some");
-        close(sigma, [4f32.ln() / 2.0, 2f32.ln() / 2.0, 0.0], 1e-6);
+        close(sigma, [math::ln(4.0) / 2.0, math::ln(2.0) / 2.0, 0.0], 1e-6);
     }
     assert!(!read(&glass(None, [1.0; 4])).scene.needs().contains(Needs::ABSORPTION));
 }

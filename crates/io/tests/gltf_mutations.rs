@@ -28,6 +28,7 @@ const LIMITS: Limits = Limits {
     node_depth: 256,
     instances: 1 << 10,
     vertices: 1 << 18,
+    emitters: 1 << 12,
 };
 
 /// Far more than any of them takes.
