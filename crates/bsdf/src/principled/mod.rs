@@ -249,6 +249,7 @@ impl Principled {
 const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
 impl Bsdf for Principled {
+    #[inline(never)]
     fn lobes(&self) -> Lobes {
         let clear = self.transmitting();
         let mut lobes = Lobes::REFLECTION | Lobes::RECIPROCAL;
@@ -269,18 +270,19 @@ impl Bsdf for Principled {
         self.eval_pdf(wo, wi, mode).1
     }
 
-    #[inline]
+    // Out of line: inlined into `BsdfAt`, its frame slows every other model down.
+    #[inline(never)]
     fn sample(&self, wo: Vec3A, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
         self.sample_from(&self.outgoing(wo)?, wo, u_lobe, u, mode)
     }
 
-    #[inline]
+    #[inline(never)]
     fn eval_pdf(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> (Spectrum, f32) {
         let at = self.outgoing(wo);
         at.map_or((Spectrum::BLACK, 0.0), |at| self.eval_from(&at, wo, wi, mode))
     }
 
-    #[inline]
+    #[inline(never)]
     fn scatter(&self, wo: Vec3A, toward_light: Option<Vec3A>, u_lobe: f32, u: Vec2, mode: Mode) -> Scatter {
         let Some(at) = self.outgoing(wo) else {
             return Scatter { eval: Spectrum::BLACK, pdf: 0.0, sample: None };
