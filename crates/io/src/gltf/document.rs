@@ -55,12 +55,12 @@ impl<'a> Document<'a> {
         warnings: &mut Vec<String>,
     ) -> Result<Self, GltfError> {
         let mut judge = |issues: Vec<Issue>| judge(name, issues, options.lenient, warnings);
-        let (json, bin) = if bytes.starts_with(b"glTF") {
+        let (json, chunk) = if bytes.starts_with(b"glTF") {
             let glb = check::glb(bytes).map_err(|e| refusal(name, e, String::new()))?;
             judge(glb.warnings)?;
-            (glb.json, glb.bin)
+            (glb.json, Chunk::Binary(glb.bin))
         } else {
-            (bytes, None)
+            (bytes, Chunk::NotAGlb)
         };
         let text =
             check::text(json, options.limits.json_values).map_err(|e| refusal(name, e, String::new()))?;
@@ -68,7 +68,7 @@ impl<'a> Document<'a> {
         let mut value = text.root;
         judge(check::structure(&value))?;
         extensions::required(name, &value)?;
-        let buffers = load_buffers(name, &value, bin, resolver, options, &mut judge)?;
+        let buffers = load_buffers(name, &value, chunk, resolver, options, &mut judge)?;
         let views = Views { root: &value, buffers: &buffers };
         judge(check::data(&value, &views))?;
         check_images(name, &views, resolver, options, &mut judge)?;
@@ -108,6 +108,15 @@ impl<'a> Document<'a> {
     }
 }
 
+/// What a file brings besides its JSON.
+#[derive(Clone, Copy)]
+enum Chunk<'a> {
+    /// It is JSON alone.
+    NotAGlb,
+    /// The binary chunk, if the container has one.
+    Binary(Option<&'a [u8]>),
+}
+
 fn refusal(name: &str, issue: Issue, more: String) -> GltfError {
     GltfError::Invalid {
         file: name.into(),
@@ -145,7 +154,7 @@ fn judge(name: &str, issues: Vec<Issue>, lenient: bool, warnings: &mut Vec<Strin
 fn load_buffers<'a>(
     name: &str,
     root: &Value,
-    bin: Option<&'a [u8]>,
+    chunk: Chunk<'a>,
     resolver: &dyn Resolver,
     options: &LoadOptions<'_>,
     judge: &mut impl FnMut(Vec<Issue>) -> Result<(), GltfError>,
@@ -153,7 +162,7 @@ fn load_buffers<'a>(
     let mut out = Vec::new();
     let mut left = options.limits.file_bytes;
     for (i, buffer) in list(root, "buffers").iter().enumerate() {
-        let bytes = match (buffer.get("uri").and_then(Value::as_str), bin) {
+        let bytes = match (buffer.get("uri").and_then(Value::as_str), chunk) {
             (Some(uri), _) => {
                 let failed = |source| GltfError::Resource {
                     file: name.into(),
@@ -167,11 +176,11 @@ fn load_buffers<'a>(
                 }
                 Cow::Owned(bytes)
             }
-            (None, bin) if i == 0 => {
+            (None, Chunk::Binary(bin)) if i == 0 => {
                 judge(check::buffer(root, i, bin, true).into_iter().collect())?;
                 Cow::Borrowed(bin.unwrap_or(&[]))
             }
-            // A buffer of an extension that this file can do without.
+            // A buffer without bytes: of an extension that this file can do without, or of nothing that is shown.
             (None, _) => Cow::Borrowed(&[][..]),
         };
         left = left.saturating_sub(bytes.len() as u64);
@@ -228,6 +237,12 @@ fn list<'v>(root: &'v Value, key: &str) -> &'v [Value] {
 fn tidy(value: &mut Value) {
     if let Some(root) = value.as_object_mut() {
         root.remove("animations");
+        // A scene may be empty.
+        for scene in root.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
+            if let Some(scene) = scene.as_object_mut() {
+                scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
+            }
+        }
     }
     let mut todo = vec![value];
     while let Some(v) = todo.pop() {
