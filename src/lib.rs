@@ -15,6 +15,7 @@ pub use etendue_integrator as integrator;
 pub use etendue_io as io;
 pub use etendue_light as light;
 pub use etendue_material as material;
+pub use etendue_measure as measure;
 pub use etendue_sampling as sampling;
 pub use etendue_scene as scene;
 pub use etendue_texture as texture;

@@ -1,4 +1,4 @@
-use etendue::io::compare::compare;
+use etendue::measure::compare;
 use serde_json::json;
 
 use crate::args::CompareArgs;

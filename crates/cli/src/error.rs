@@ -2,10 +2,9 @@ use std::path::PathBuf;
 
 use etendue::camera::{CameraError, FilmError};
 use etendue::integrator::RenderError;
-use etendue::io::{
-    FilmMergeError, FilmReadError, LoadError, PictureError, SamplesError, WriteError, compare::CompareError,
-};
+use etendue::io::{FilmMergeError, FilmReadError, LoadError, PictureError, SamplesError, WriteError};
 use etendue::light::EnvironmentError;
+use etendue::measure::CompareError;
 use etendue::scene::SceneError;
 
 /// Why a command did not do what it was asked for.

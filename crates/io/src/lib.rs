@@ -1,7 +1,7 @@
 //! Bytes to scenes and films to bytes: the only crate that knows file formats.
 //!
 //! Films as `.film` files, which keep every bit, name the samples they hold, and can be added up ([`FilmFile`]);
-//! pictures in ([`read_picture`], [`decode_texture`]) and out, and how far one is from another ([`compare`]).
+//! pictures in ([`read_picture`], [`decode_texture`]) and out.
 //!
 //! Features: `gltf` (glTF 2.0 in), `obj` (OBJ and MTL in), `ply` (PLY meshes in), `png`, `hdr` and `exr` (pictures in and out).
 //! A file can be wrong in any way and yields an
@@ -34,7 +34,6 @@
 )]
 
 mod atomic;
-pub mod compare;
 #[cfg(feature = "exr")]
 mod exr_out;
 pub mod fallback;

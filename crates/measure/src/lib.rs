@@ -1,0 +1,7 @@
+//! Run time against error.
+//!
+//! * [`compare`]: how far a picture is from a reference: RMSE, relMSE, trimmed.
+
+mod compare;
+
+pub use compare::{CompareError, Comparison, compare};
