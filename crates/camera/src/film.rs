@@ -117,6 +117,13 @@ impl Film {
         }
     }
 
+    /// Forgets all samples and keeps the memory.
+    pub fn clear(&mut self) {
+        self.all.sums.fill([0; 3]);
+        self.all.counts.fill(0);
+        self.all.planes.clear();
+    }
+
     /// Adds a tile's sums. Pixels outside the film are ignored.
     pub fn absorb(&mut self, tile: &Tile) {
         let r = self.all.replicates as usize;

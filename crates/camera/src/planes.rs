@@ -78,6 +78,15 @@ impl PlaneSums {
         })
     }
 
+    pub(crate) fn clear(&mut self) {
+        self.albedo.fill([0; 3]);
+        self.normal.fill([0; 3]);
+        self.depth.fill(0);
+        self.hits.fill(0);
+        self.alpha.fill(0);
+        self.ids.fill(None);
+    }
+
     pub(crate) fn add_alpha(&mut self, pixel: usize, alpha: f32) {
         if let Some(a) = self.alpha.get_mut(pixel) {
             *a = a.wrapping_add(crate::fixed::to_fixed(alpha).unwrap_or(0));

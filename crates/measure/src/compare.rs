@@ -3,7 +3,7 @@
 /// Fraction of pixels that the trimmed error leaves out.
 const TRIM: f64 = 1e-3;
 /// Keeps the relative error of black references finite.
-const EPSILON: f64 = 0.01;
+pub(crate) const EPSILON: f64 = 0.01;
 
 /// The distance of a picture from a reference. Pixels where either has a number that is not finite are counted and
 /// left out of everything else.
@@ -93,15 +93,21 @@ pub fn compare(picture: &[[f32; 3]], reference: &[[f32; 3]]) -> Result<Compariso
     out.reference_mean = out.reference_mean.map(|s| s / count);
     out.rmse = (squares / (3.0 * count)).sqrt();
     out.relative_mse = errors.iter().sum::<f64>() / count;
-    errors.sort_unstable_by(f64::total_cmp);
-    let kept = n.saturating_sub((count * TRIM).ceil() as usize);
-    if kept > 0 {
-        out.relative_mse_trimmed = errors.iter().take(kept).sum::<f64>() / kept as f64;
-    }
+    out.relative_mse_trimmed = trimmed_mean(&mut errors);
     Ok(out)
 }
 
-fn finite(c: &[f32; 3]) -> bool {
+/// The mean without the ⌈n/1000⌉ largest; 0 where nothing is left.
+pub(crate) fn trimmed_mean(errors: &mut [f64]) -> f64 {
+    let kept = errors.len().saturating_sub((errors.len() as f64 * TRIM).ceil() as usize);
+    if kept == 0 {
+        return 0.0;
+    }
+    let (small, _, _) = errors.select_nth_unstable_by(kept, f64::total_cmp);
+    small.iter().sum::<f64>() / kept as f64
+}
+
+pub(crate) fn finite(c: &[f32; 3]) -> bool {
     c.iter().all(|v| v.is_finite())
 }
 
