@@ -2,12 +2,15 @@
 //! standard output; the exit status is 0 only when every output is complete on disk.
 
 mod args;
+mod bench;
 mod compare;
 mod error;
 mod info;
 mod merge;
 mod outputs;
 mod picture;
+mod prepare;
+mod reference;
 mod render;
 mod report;
 mod session;
@@ -25,6 +28,8 @@ fn main() -> ExitCode {
         Command::Merge(args) => merge::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Info(args) => info::run(&args),
+        Command::Bench(args) => bench::run(&args),
+        Command::Reference(args) => reference::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

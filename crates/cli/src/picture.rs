@@ -1,8 +1,12 @@
 use std::path::Path;
 
+use etendue::core::UVec2;
 use etendue::io::{Limits, read_film, read_picture};
+use etendue::measure::{Reference, Residual};
+use serde_json::Value;
 
 use crate::error::CliError;
+use crate::session::say;
 
 /// Linear pixels of a picture or a film.
 pub(crate) struct Pixels {
@@ -23,6 +27,53 @@ pub(crate) fn read(path: &Path) -> Result<Pixels, CliError> {
     }
     let picture = read_picture(path, &Limits::default())?;
     Ok(Pixels { size: [picture.width, picture.height], rgb: picture.rgb })
+}
+
+/// What is right, and how wrong it may be: a film tells by its replicates, a picture by the file beside it that
+/// `etendue reference` writes.
+pub(crate) fn reference(path: &Path) -> Result<Reference, CliError> {
+    let name = path.display();
+    if is_film(path) {
+        let film = read_film(path, &film_limits())?;
+        if let Some(r) = Reference::from_film(film.film()) {
+            return Ok(r);
+        }
+        say(&format!(
+            "warning: '{name}' has one replicate and does not tell its own error; it is taken for 0"
+        ));
+        let size = film.film().size().to_array();
+        return Ok(Reference::exact(size, film.film().to_rgb()));
+    }
+    let Pixels { size, rgb } = read(path)?;
+    let beside = path.with_extension("json");
+    if !beside.is_file() {
+        say(&format!("warning: nothing is known of the error of '{name}'; it is taken for 0"));
+        return Ok(Reference::exact(size, rgb));
+    }
+    let limits = Limits { file_bytes: 1 << 20, ..Limits::default() };
+    let refuse = |why: String| CliError::Usage(format!("'{}': {why}", beside.display()));
+    let bytes = etendue::io::read_bytes(&beside, &limits).map_err(|e| refuse(e.to_string()))?;
+    let facts: Value = serde_json::from_slice(&bytes).map_err(|e| refuse(format!("no JSON: {e}")))?;
+    let number = |key: &str| {
+        let n = facts.get(key).and_then(Value::as_f64).filter(|n| *n >= 0.0 && n.is_finite());
+        n.ok_or_else(|| refuse(format!("'{key}' is missing, or no number that is not below 0")))
+    };
+    let residual = Residual {
+        relative: number("residual_relmse")?,
+        trimmed: number("residual_relmse_trim")?,
+        absolute: number("residual_rmse")?.powi(2),
+    };
+    Ok(Reference { size, rgb, residual })
+}
+
+/// Whether a picture of this size can be measured against the reference.
+pub(crate) fn check_size(reference: &Reference, size: UVec2) -> Result<(), CliError> {
+    let [w, h] = reference.size;
+    if [w, h] == size.to_array() {
+        return Ok(());
+    }
+    let both = format!("the reference has {w}x{h} pixels and the picture {}x{}", size.x, size.y);
+    Err(CliError::Usage(format!("{both}; leave '--size' out or write --size {w}x{h}")))
 }
 
 /// Films are checked against their own length, and are large.

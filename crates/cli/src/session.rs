@@ -7,6 +7,9 @@ use etendue::SystemClock;
 use etendue::core::{CancelFlag, Clock, Progress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::args::Threads;
+use crate::error::CliError;
+
 /// A line to standard error. If nobody can hear it, nothing can be done about that.
 pub(crate) fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
@@ -96,11 +99,50 @@ impl Progress for Interrupt {
     }
 }
 
+/// Seconds of all threads of this process.
+pub(crate) struct CpuClock(ProcessTime);
+
+impl CpuClock {
+    /// `None` where the system does not tell.
+    pub(crate) fn start() -> Option<Self> {
+        ProcessTime::try_now().ok().map(Self)
+    }
+}
+
+impl Clock for CpuClock {
+    fn seconds(&self) -> f64 {
+        self.0.try_elapsed().map_or(0.0, |t| t.as_secs_f64())
+    }
+}
+
+/// Runs on a pool of as many threads as were asked for.
+pub(crate) fn in_pool<T: Send>(
+    threads: Option<Threads>,
+    work: impl FnOnce() -> Result<T, CliError> + Send,
+) -> Result<T, CliError> {
+    match threads {
+        None => work(),
+        Some(n) => rayon::ThreadPoolBuilder::new()
+            .num_threads(n.0)
+            .build()
+            .map_err(|e| CliError::Threads(n.0, e))?
+            .install(work),
+    }
+}
+
 /// Seconds by the wall and seconds of all threads together.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Spent {
     pub(crate) wall: f64,
     pub(crate) cpu: Option<f64>,
+}
+
+impl Spent {
+    /// Adds another stretch of work.
+    pub(crate) fn add(&mut self, more: Self) {
+        self.cpu = more.cpu.map(|c| self.cpu.unwrap_or(0.0) + c);
+        self.wall += more.wall;
+    }
 }
 
 /// Measures one step after the other.

@@ -11,7 +11,9 @@ use crate::error::CliError;
 pub(super) fn run(work: &Work<'_>, resumed: Option<FilmFile>) -> Result<Outcome, CliError> {
     let (seed, spp) = (work.settings.seed, work.settings.spp);
     match work.settings.sampler {
-        SamplerName::Sobol => with(work, Sobol::new(seed, spp), resumed),
+        SamplerName::Sobol => {
+            with(work, Sobol::new(seed, spp).with_replicates(work.settings.replicates), resumed)
+        }
         SamplerName::Stratified => with(work, Stratified::new(seed, spp), resumed),
         SamplerName::Independent => with(work, Independent::new(seed, spp), resumed),
     }

@@ -5,9 +5,9 @@ use etendue::camera::{Filter, Planes};
 use etendue::core::UVec2;
 use etendue::integrator::PathTracer;
 
-use super::prepare::Prepared;
-use crate::args::{Aov, IntegratorName, Materials, RenderArgs, SamplerName};
+use crate::args::{Aov, IntegratorChoice, Materials, RenderArgs, SamplerName};
 use crate::error::CliError;
+use crate::prepare::Prepared;
 
 /// Samples per pixel where nobody says how many.
 const SPP: u32 = 64;
@@ -22,7 +22,9 @@ pub(crate) struct Settings {
     pub(crate) indices: Range<u64>,
     pub(crate) seed: u64,
     pub(crate) sampler: SamplerName,
-    pub(crate) integrator: IntegratorName,
+    /// Independent parts of the point set.
+    pub(crate) replicates: u32,
+    pub(crate) integrator: IntegratorChoice,
     pub(crate) tracer: PathTracer,
     pub(crate) filter: Filter,
     pub(crate) planes: Planes,
@@ -50,19 +52,16 @@ impl Settings {
             let cure = format!("{spp} samples per pixel make at most {spp} parts");
             return Err(CliError::Usage(format!("'--shard {shard}' has no samples: {cure}")));
         }
-        let max_depth = match args.integrator {
-            IntegratorName::Path => args.max_depth,
-            IntegratorName::Direct => Some(args.max_depth.unwrap_or(1).min(1)),
-        };
         let has = |aov: Aov| args.aov.contains(&aov);
         Ok(Self {
             spp,
             indices,
-            seed: args.seed,
+            seed: args.method.seed,
             sampler: args.sampler,
-            integrator: args.integrator,
-            tracer: PathTracer { max_depth, ..PathTracer::default() },
-            filter: args.filter,
+            replicates: args.replicates,
+            integrator: args.integrator.clone(),
+            tracer: args.integrator.tracer(args.method.max_depth),
+            filter: args.method.filter,
             planes: Planes {
                 albedo: has(Aov::Albedo),
                 normal: has(Aov::Normal),
@@ -71,14 +70,14 @@ impl Settings {
                 alpha: has(Aov::Alpha),
             },
             time: args.time,
-            materials: args.materials,
-            reference: args.reference,
+            materials: args.view.materials,
+            reference: args.reference.is_some(),
         })
     }
 
     /// What is biased, of what the integrator names: that `direct` stops after one scattering event is what it is.
     pub(crate) fn bias(&self, named: Vec<String>) -> Vec<String> {
-        let by_design = self.integrator == IntegratorName::Direct && self.tracer.max_depth == Some(1);
+        let by_design = self.integrator.direct_only && self.tracer.max_depth == Some(1);
         named.into_iter().filter(|b| !(by_design && b.starts_with("max_depth="))).collect()
     }
 
@@ -94,11 +93,8 @@ impl Settings {
         }
     }
 
-    pub(crate) fn integrator_word(&self) -> &'static str {
-        match self.integrator {
-            IntegratorName::Path => "path",
-            IntegratorName::Direct => "direct",
-        }
+    pub(crate) fn integrator_word(&self) -> &str {
+        &self.integrator.word
     }
 
     pub(crate) fn filter_word(&self) -> String {

@@ -1,19 +1,22 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 
 use etendue::SystemClock;
 use etendue::camera::{Camera, Film};
 use etendue::core::Clock;
 use etendue::integrator::{Ended, RenderOptions, render};
 use etendue::io::{FilmFile, FilmInfo, write_film};
+use etendue::measure::Reference;
 use etendue::sampling::Sampler;
 use etendue::scene::Scene;
 
+use super::curve::{CurveLog, at_powers_of_two};
 use super::settings::Settings;
 use crate::error::CliError;
 use crate::outputs::{Kind, Output};
 use crate::report::{Totals, needs};
-use crate::session::{Interrupt, SAVE_EVERY, Watch, say};
+use crate::session::{Interrupt, SAVE_EVERY, Spent, Stopwatch, Watch, say};
 
 /// Name of a film that is not in a file yet, in messages.
 const HERE: &str = "this render";
@@ -28,14 +31,16 @@ pub(super) struct Work<'a> {
     pub(super) words: BTreeMap<String, String>,
     pub(super) outputs: &'a [Output],
     pub(super) interrupt: &'a Interrupt,
+    /// Where a curve goes, and what it measures against.
+    pub(super) curve: Option<(&'a Path, &'a Reference)>,
 }
 
 /// What came out.
-pub(super) struct Outcome {
+pub(crate) struct Outcome {
     /// With the sample indices that every pixel has.
-    pub(super) info: FilmInfo,
+    pub(crate) info: FilmInfo,
     films: Films,
-    pub(super) totals: Totals,
+    pub(crate) totals: Totals,
 }
 
 /// The sums.
@@ -48,7 +53,7 @@ enum Films {
 
 impl Outcome {
     /// All samples drawn, also those of a pass that was not finished.
-    pub(super) fn picture(&self) -> &Film {
+    pub(crate) fn picture(&self) -> &Film {
         match &self.films {
             Films::One(film) | Films::Whole(_, Some(film)) => film,
             Films::Whole(whole, None) => whole.film(),
@@ -56,7 +61,7 @@ impl Outcome {
     }
 
     /// The film of whole passes, if a film file was asked for.
-    pub(super) fn whole(&self) -> Option<&FilmFile> {
+    pub(crate) fn whole(&self) -> Option<&FilmFile> {
         match &self.films {
             Films::One(_) => None,
             Films::Whole(whole, _) => Some(whole),
@@ -91,14 +96,23 @@ impl Work<'_> {
         let mut watch = Watch::new(self.interrupt, samples.saturating_mul(pixels));
         let mut totals =
             Totals { needs: needs(self.scene.needs() | self.camera.needs()), ..Totals::default() };
-        let mut run = Run { work: self, sampler, clock: SystemClock::default(), totals: &mut totals };
+        let mut run = Run {
+            work: self,
+            sampler,
+            clock: SystemClock::default(),
+            spent: Spent::default(),
+            curve: self.curve.map(|(_, reference)| CurveLog::new(reference)),
+            totals: &mut totals,
+        };
         let outcome = if self.outputs.iter().any(|o| o.kind == Kind::Film) {
             run.in_whole_passes(start, missing, &mut watch)
         } else {
             run.at_once(start, missing, &mut watch)
         };
+        let written = self.curve.zip(run.curve).map(|((path, _), log)| log.write(path)).transpose();
         watch.finish();
         let (info, films) = outcome?;
+        written?;
         Ok(Outcome { info, films, totals })
     }
 
@@ -116,13 +130,16 @@ struct Run<'a, S> {
     work: &'a Work<'a>,
     sampler: S,
     clock: SystemClock,
+    /// Of drawing alone.
+    spent: Spent,
+    curve: Option<CurveLog<'a>>,
     totals: &'a mut Totals,
 }
 
 impl<S: Sampler> Run<'_, S> {
     /// Seconds that are left; `None` without a budget.
     fn left(&self) -> Option<f64> {
-        self.work.settings.time.map(|t| (t - self.clock.seconds()).max(0.0))
+        self.work.settings.time.map(|t| (t - self.spent.wall).max(0.0))
     }
 
     /// Draws one range into a film; gives the indices that every pixel has got.
@@ -142,7 +159,9 @@ impl<S: Sampler> Run<'_, S> {
             clock: Some(&self.clock),
             ..RenderOptions::default()
         };
+        let mut stopwatch = Stopwatch::start();
         let report = render(w.scene, w.camera, &w.settings.tracer, self.sampler, film, &options)?;
+        self.spent.add(stopwatch.lap());
         self.totals.add(&report);
         Ok(report.complete)
     }
@@ -155,13 +174,19 @@ impl<S: Sampler> Run<'_, S> {
         watch: &mut Watch<'_>,
     ) -> Result<(FilmInfo, Films), CliError> {
         let (mut info, mut film) = start.into_parts();
-        for range in missing {
+        let ranges: Vec<Range<u64>> = match self.curve {
+            None => missing,
+            Some(_) => missing.into_iter().flat_map(at_powers_of_two).collect(),
+        };
+        for range in ranges {
             let complete = self.draw(&mut film, range, watch)?;
             info.samples.insert(complete);
             if self.totals.ended != Ended::Complete {
                 break;
             }
+            self.look(&film, &info, false)?;
         }
+        self.look(&film, &info, true)?;
         Ok((info, Films::One(film)))
     }
 
@@ -193,12 +218,23 @@ impl<S: Sampler> Run<'_, S> {
             if self.totals.ended == Ended::Time {
                 break;
             }
+            self.look(whole.film(), whole.info(), false)?;
             if self.clock.seconds() - saved > SAVE_EVERY.as_secs_f64() {
                 self.work.save(&whole);
                 saved = self.clock.seconds();
             }
             rest = if range.end < rest.end { range.end..rest.end } else { ranges.next().unwrap_or(0..0) };
         }
+        self.look(whole.film(), whole.info(), true)?;
         Ok((whole.info().clone(), Films::Whole(Box::new(whole), None)))
+    }
+
+    fn look(&mut self, film: &Film, info: &FilmInfo, at_end: bool) -> Result<(), CliError> {
+        // A film of an unfinished pass has no one number of samples.
+        let whole = self.totals.ended != Ended::Cancelled;
+        match &mut self.curve {
+            Some(log) if whole => log.look(film, info.samples.count(), self.totals, self.spent, at_end),
+            _ => Ok(()),
+        }
     }
 }

@@ -1,19 +1,22 @@
 use std::path::Path;
 
 use etendue::bsdf::Meaning;
-use etendue::camera::Camera;
-use etendue::core::UVec2;
+use etendue::camera::{Camera, Perspective};
+use etendue::core::{UVec2, Vec3A};
 use etendue::io::{
     ImageBudget, Limits, LoadOptions, Loaded, PictureError, SceneCamera, decode_texture, fallback, load_scene,
 };
 use etendue::light::ImageEnvironment;
-use etendue::scene::SceneBuilder;
+use etendue::scene::presets::{self, Preset};
+use etendue::scene::{Scene, SceneBuilder};
 use etendue::texture::Encoding;
 
-use crate::args::{Materials, RenderArgs};
+use crate::args::{Materials, ViewArgs};
 use crate::error::CliError;
 use crate::session::Interrupt;
 
+/// What a built-in scene's name begins with.
+const BUILT_IN: &str = "builtin:";
 /// Pixels across where nobody says how many, and down where no camera does.
 const SIZE: UVec2 = UVec2::new(640, 480);
 
@@ -30,62 +33,123 @@ pub(crate) struct Prepared {
     pub(crate) skipped: Vec<String>,
 }
 
-pub(crate) fn load(args: &RenderArgs, interrupt: &Interrupt) -> Result<Prepared, CliError> {
+/// A scene to be rendered, and its camera.
+pub(crate) struct Built {
+    pub(crate) scene: Scene,
+    pub(crate) prepared: Prepared,
+}
+
+/// Reads the scene that is asked for. `size` is that of the picture where no flag says.
+pub(crate) fn load(
+    path: &Path,
+    view: &ViewArgs,
+    size: Option<UVec2>,
+    interrupt: &Interrupt,
+) -> Result<Prepared, CliError> {
+    let size = view.size.or(size);
+    if let Some(name) = path.to_str().and_then(|p| p.strip_prefix(BUILT_IN)) {
+        return built_in(name, view, size);
+    }
     let mut builder = SceneBuilder::new();
     let options = LoadOptions {
         limits: Limits::default(),
-        materials: match args.materials {
+        materials: match view.materials {
             Materials::GltfB => Meaning::GltfB,
             Materials::Default => Meaning::default(),
         },
-        variant: args.variant.clone(),
-        lenient: args.lenient,
+        variant: view.variant.clone(),
+        lenient: view.lenient,
         progress: interrupt,
     };
-    let Loaded { cameras, report } = load_scene(&args.scene, &options, &mut builder)?;
+    let Loaded { cameras, report } = load_scene(path, &options, &mut builder)?;
     let mut warnings = report.warnings;
     // Before any light is added: an environment has no bounds, but a user's light may.
-    let (camera, camera_name) = camera(args, &cameras, &builder, &mut warnings)?;
-    let mut environment = None;
-    if let Some(path) = &args.env {
-        builder.light(self::environment(path, args.env_scale, args.env_rotate)?);
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        environment = Some(format!("{name} scale {} turned {}", args.env_scale, args.env_rotate));
-    } else if builder.has_no_light() {
+    let (camera, camera_name) = camera(view, size, &cameras, &builder, &mut warnings)?;
+    let environment = add_environment(view, &mut builder)?;
+    if environment.is_none() && builder.has_no_light() {
         fallback::light(&mut builder);
         warnings
             .push("the scene has no light: a soft sky stands in for it; bring one with '--env FILE'".into());
     }
-    let scene_name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let scene_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(Prepared {
         builder,
         camera,
         camera_name,
         scene_name,
         environment,
-        variant: args.variant.clone(),
+        variant: view.variant.clone(),
         warnings,
         skipped: report.skipped,
     })
 }
 
+/// A scene that needs no file.
+fn built_in(name: &str, view: &ViewArgs, size: Option<UVec2>) -> Result<Prepared, CliError> {
+    let Preset { mut builder, eye, target, vertical_fov_deg } = match name {
+        "cornell" => presets::cornell_box(),
+        "empty-cornell" => presets::empty_cornell_box(),
+        
+        _ => {
+            let there = "there are builtin:cornell, builtin:empty-cornell and builtin:veach-mis";
+            return Err(CliError::Usage(format!("'{BUILT_IN}{name}': no such scene is built in; {there}")));
+        }
+    };
+    if view.camera.is_some() || view.variant.is_some() {
+        let why = "has one camera and no variants; leave '--camera' and '--variant' out";
+        return Err(CliError::Usage(format!("'{BUILT_IN}{name}' {why}")));
+    }
+    let environment = add_environment(view, &mut builder)?;
+    let size = size.unwrap_or(SIZE);
+    let camera = Perspective::look_at(eye, target, Vec3A::Y, vertical_fov_deg, size)?;
+    Ok(Prepared {
+        builder,
+        camera: Box::new(camera),
+        camera_name: "of the built-in scene".into(),
+        scene_name: format!("{BUILT_IN}{name}"),
+        environment,
+        variant: None,
+        warnings: Vec::new(),
+        skipped: Vec::new(),
+    })
+}
+
+/// Adds the picture of the surroundings that the flags name, and gives its words.
+fn add_environment(view: &ViewArgs, builder: &mut SceneBuilder) -> Result<Option<String>, CliError> {
+    let Some(path) = &view.env else { return Ok(None) };
+    builder.light(environment(path, view.env_scale, view.env_rotate)?);
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    Ok(Some(format!("{name} scale {} turned {}", view.env_scale, view.env_rotate)))
+}
+
+/// Builds what was read; `path` is for messages.
+pub(crate) fn build(mut prepared: Prepared, path: &Path, interrupt: &Interrupt) -> Result<Built, CliError> {
+    let builder = std::mem::take(&mut prepared.builder);
+    let scene = builder
+        .build_with_progress(interrupt)
+        .map_err(|source| CliError::Scene { path: path.to_owned(), source })?;
+    Ok(Built { scene, prepared })
+}
+
 fn camera(
-    args: &RenderArgs,
+    view: &ViewArgs,
+    size: Option<UVec2>,
     cameras: &[SceneCamera],
     builder: &SceneBuilder,
     warnings: &mut Vec<String>,
 ) -> Result<(Box<dyn Camera>, String), CliError> {
-    let chosen = match &args.camera {
+    let chosen = match &view.camera {
         None => cameras.first().map(|c| (0, c)),
         Some(wanted) => Some(find(wanted, cameras)?),
     };
     let Some((index, chosen)) = chosen else {
-        let size = args.size.unwrap_or(SIZE);
+        let size = size.unwrap_or(SIZE);
         warnings.push("the scene has no camera: one is placed in front of it".into());
         return Ok((Box::new(fallback::camera(&builder.bounds(), size)?), "in front of the scene".into()));
     };
-    let size = args.size.unwrap_or_else(|| default_size(chosen.aspect));
-    if let (Some(aspect), true) = (chosen.aspect, args.size.is_some()) {
+    let asked = size.is_some();
+    let size = size.unwrap_or_else(|| default_size(chosen.aspect));
+    if let (Some(aspect), true) = (chosen.aspect, asked) {
         let ratio = size.x as f32 / size.y as f32;
         if (ratio / aspect - 1.0).abs() > 0.02 {
             let name = label(index, chosen);

@@ -1,0 +1,92 @@
+//! `etendue reference`: a render in independent parts whose scatter tells its own error.
+
+use std::path::{Path, PathBuf};
+
+use etendue::camera::Film;
+use etendue::core::UVec2;
+use etendue::measure::{Reference, Residual};
+use serde_json::json;
+
+use crate::args::{ReferenceArgs, RenderArgs, SamplerName, Tone};
+use crate::error::CliError;
+use crate::outputs::{check_place, write_json};
+use crate::picture::is_film;
+use crate::render;
+use crate::session::print;
+
+/// Independent parts of the point set. Two would do for the whole picture; four also tell of each pixel, and cost a
+/// tenth more noise than one.
+const REPLICATES: u32 = 4;
+
+pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
+    let output = with_film(args);
+    let besides: Vec<PathBuf> =
+        output.iter().filter(|p| !is_film(p)).map(|p| p.with_extension("json")).collect();
+    for path in &besides {
+        check_place(path)?;
+    }
+    let there = output.iter().find(|p| is_film(p) && p.exists()).cloned();
+    let rendered = render::render(&RenderArgs {
+        first: Some(args.scene.clone()),
+        output,
+        spp: args.spp,
+        view: args.view.clone(),
+        method: args.method.clone(),
+        integrator: args.integrator.clone(),
+        sampler: SamplerName::Sobol,
+        reference: Some(None),
+        curve: None,
+        time: args.time,
+        shard: None,
+        resume: there,
+        json: args.json.clone(),
+        exposure: 0.0,
+        tone_map: Tone::Clip,
+        aov: Vec::new(),
+        replicates: REPLICATES,
+    })?;
+    let film = rendered.picture();
+    let Some(reference) = Reference::from_film(film) else {
+        let cure = format!("it needs at least {REPLICATES} samples per pixel");
+        return Err(CliError::Usage(format!("the reference does not tell its error yet: {cure}")));
+    };
+    let Residual { relative, trimmed, absolute } = reference.residual;
+    print(&format!("residual relMSE {relative:.3e}, trimmed {trimmed:.3e}, RMSE {:.3e}", absolute.sqrt()))?;
+    let spp = rendered.info.samples.count();
+    for path in &besides {
+        write_json(path, &facts(&args.scene, film, spp, &reference))?;
+    }
+    Ok(())
+}
+
+/// The outputs, with a film among them.
+fn with_film(args: &ReferenceArgs) -> Vec<PathBuf> {
+    let mut output = args.output.clone();
+    if !output.iter().any(|p| is_film(p)) {
+        let beside = output.first().map(|p| p.with_extension("film"));
+        let own = || PathBuf::from(render::stem_of(&args.scene)).with_extension("film");
+        output.push(beside.unwrap_or_else(own));
+    }
+    output
+}
+
+/// What is written beside a picture, which cannot tell its error itself.
+fn facts(scene: &Path, film: &Film, spp: u64, reference: &Reference) -> serde_json::Value {
+    let size = film.size();
+    let pixels = f64::from(size.x) * f64::from(size.y);
+    let all = (0..size.y).flat_map(|y| (0..size.x).map(move |x| UVec2::new(x, y)));
+    let sum = all.fold([0.0; 3], |sum, p| {
+        let l = film.mean(p).to_array();
+        [sum[0] + f64::from(l[0]), sum[1] + f64::from(l[1]), sum[2] + f64::from(l[2])]
+    });
+    let Residual { relative, trimmed, absolute } = reference.residual;
+    json!({
+        "scene": scene.display().to_string(),
+        "by": format!("etendue {}", env!("CARGO_PKG_VERSION")),
+        "spp": spp,
+        "mean": sum.map(|s| s / pixels),
+        "residual_relmse": relative,
+        "residual_relmse_trim": trimmed,
+        "residual_rmse": absolute.sqrt(),
+    })
+}
