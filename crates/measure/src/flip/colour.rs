@@ -28,11 +28,6 @@ fn transform(m: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
     m.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
-/// Luminance of linear Rec.709, where white has 1.
-pub(super) fn luminance(rgb: [f32; 3]) -> f64 {
-    TO_XYZ[1].iter().zip(rgb).map(|(m, c)| f64::from(*m) * f64::from(c)).sum()
-}
-
 /// Linear Rec.709 to YCxCz: L*a*b* without its cube root, so that filtering there is filtering light. The first
 /// component is the luminance (0 to 1) instead of 116 times it less 16, which the filters would only carry along.
 pub(super) fn to_ycxcz(rgb: [f32; 3]) -> [f32; 3] {

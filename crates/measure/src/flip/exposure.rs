@@ -5,7 +5,6 @@ use std::f64::consts::LN_2;
 use etendue_core::math::wide;
 
 use super::FlipExposures;
-use super::colour::luminance;
 use crate::CompareError;
 
 /// What a display shows of the brightest pixel at the first exposure and of the median at the last.
@@ -36,7 +35,8 @@ pub(super) fn exposures(reference: &[[f32; 3]]) -> Result<FlipExposures, Compare
     let mut luminances: Vec<f32> = Vec::new();
     luminances.try_reserve_exact(reference.len()).map_err(|_| CompareError::Memory)?;
     let finite = reference.iter().filter(|p| p.iter().all(|c| c.is_finite()));
-    luminances.extend(finite.map(|p| luminance(*p) as f32));
+    let wide = finite.map(|p| p.map(f64::from));
+    luminances.extend(wide.map(|[r, g, b]| (0.2126 * r + 0.7152 * g + 0.0722 * b) as f32));
     let floor = f64::from(f32::EPSILON);
     let largest = luminances.iter().copied().fold(f32::EPSILON, f32::max);
     let middle = luminances.len() / 2;

@@ -100,3 +100,31 @@ fn difference(a: Seen, b: Seen) -> f32 {
     let feature = (feature * std::f32::consts::FRAC_1_SQRT_2).sqrt().min(1.0);
     pow(colour, 1.0 - feature)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn features_amplify_a_difference_of_colour_and_make_none() {
+        let plain = Seen { ycxcz: [0.5, 0.0, 0.0], edge: 0.0, point: 0.0 };
+        let lighter = Seen { ycxcz: [0.6, 0.0, 0.0], ..plain };
+        let colour = difference(plain, lighter);
+        assert!(colour > 0.05 && colour < 0.3, "{colour}");
+        let edge = difference(plain, Seen { edge: 0.3, ..lighter });
+        let point = difference(plain, Seen { point: 0.6, ..lighter });
+        assert!(edge > 1.5 * colour && point > edge && point < 1.0, "{colour}, {edge}, {point}");
+        assert_eq!(difference(plain, Seen { edge: 0.3, point: 0.6, ..plain }), 0.0);
+        assert_eq!(difference(lighter, plain), colour);
+        // c^(1 − f), with f = √(0.3 / √2).
+        let want = f64::from(colour).powf(1.0 - (0.3f64 / 2.0f64.sqrt()).sqrt());
+        assert!((f64::from(edge) - want).abs() < 1e-6);
+    }
+
+    #[test]
+    fn only_what_is_no_colour_is_repaired() {
+        let (good, other, bad) = ([1.0, -2.0, 3.0], [4.0; 3], [0.0, f32::NAN, 0.0]);
+        assert_eq!((repaired(good, other), repaired(good, bad)), (good, good));
+        assert_eq!((repaired(bad, other), repaired(bad, bad)), (other, [0.0; 3]));
+    }
+}
