@@ -17,7 +17,8 @@ const FROM_XYZ: [[f32; 3]; 3] = [
 ];
 
 /// Large colour distances are rarely told apart: the exponent, the share of the largest distance from which on they
-/// are compressed, and the part of the error's range left for those below (Andersson et al. 2020, Section 4.1.3).
+/// are compressed, and the part of the error's range left for those below (error redistribution,
+/// Andersson et al. 2020).
 const EXPONENT: f32 = 0.7;
 const KNEE: f32 = 0.4;
 const BELOW_KNEE: f32 = 0.95;

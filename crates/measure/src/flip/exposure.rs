@@ -28,8 +28,8 @@ fn target_radiance() -> f64 {
     (-b + (b * b - 4.0 * a * c).sqrt()) / (2.0 * a)
 }
 
-/// From the exposure that shows the brightest pixel to the one that shows the median (Andersson et al. 2021,
-/// Section 3), of the pixels that are finite. Luminances count from f32's ε on, so that pictures with little or no
+/// From the exposure that shows the brightest pixel to the one that shows the median (Andersson et al. 2021),
+/// of the pixels that are finite. Luminances count from f32's ε on, so that pictures with little or no
 /// light have exposures too.
 pub(super) fn exposures(reference: &[[f32; 3]]) -> Result<FlipExposures, CompareError> {
     let mut luminances: Vec<f32> = Vec::new();

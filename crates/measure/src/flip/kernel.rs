@@ -85,13 +85,13 @@ struct Term {
     falloff: f64,
 }
 
-// Andersson et al. 2020, Table 1. The second terms of the first two have no amplitude.
+// The contrast sensitivities of Andersson et al. 2020. The second terms of the first two have no amplitude.
 const LUMINANCE_FALLOFF: f64 = 0.0047;
 const RED_GREEN_FALLOFF: f64 = 0.0053;
 const BLUE_YELLOW: [Term; 2] =
     [Term { amplitude: 34.1, falloff: 0.04 }, Term { amplitude: 13.5, falloff: 0.025 }];
 
-/// Width in degrees of the features that the eye finds by itself, two standard deviations (Section 4.2).
+/// Width in degrees of the features that the eye finds by itself, two standard deviations (Andersson et al. 2020).
 const FEATURE_WIDTH: f64 = 0.082;
 
 /// Standard deviation in degrees.

@@ -44,6 +44,8 @@ impl Default for FlipOptions {
 /// infinity gets the largest difference, 1; its neighbours are compared as if the two were alike there.
 ///
 /// Time grows with the exposures, one for each stop between the brightest and the median luminance of the reference.
+/// Luminances below f32's ε count as that: if more than half of a reference is black, exposures go on for 24 stops, and
+/// any light in the dark is an error.
 ///
 /// ```
 /// use etendue_measure::flip::{FlipOptions, flip};

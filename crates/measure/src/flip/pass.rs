@@ -93,7 +93,7 @@ fn finite(c: &[f32; 3]) -> bool {
 }
 
 /// The difference of two pixels: that of their colours, the more the more their features differ (Andersson et al.
-/// 2020, Section 4.3).
+/// 2020, final difference).
 fn difference(a: Seen, b: Seen) -> f32 {
     let colour = colour_error(hunt_lab(from_ycxcz(a.ycxcz)), hunt_lab(from_ycxcz(b.ycxcz)));
     let feature = (a.edge - b.edge).abs().max((a.point - b.point).abs());
