@@ -4,7 +4,7 @@ use etendue::camera::{CameraError, FilmError};
 use etendue::integrator::RenderError;
 use etendue::io::{FilmMergeError, FilmReadError, LoadError, PictureError, SamplesError, WriteError};
 use etendue::light::EnvironmentError;
-use etendue::measure::CompareError;
+use etendue::measure::{CompareError, MeasureError};
 use etendue::scene::SceneError;
 
 /// Why a command did not do what it was asked for.
@@ -40,6 +40,8 @@ pub(crate) enum CliError {
     Samples(#[from] SamplesError),
     #[error(transparent)]
     Compare(#[from] CompareError),
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
     #[error(transparent)]
     Write(#[from] WriteError),
     /// Standard output is closed.

@@ -89,7 +89,7 @@ fn built_in(name: &str, view: &ViewArgs, size: Option<UVec2>) -> Result<Prepared
     let Preset { mut builder, eye, target, vertical_fov_deg } = match name {
         "cornell" => presets::cornell_box(),
         "empty-cornell" => presets::empty_cornell_box(),
-        
+
         _ => {
             let there = "there are builtin:cornell, builtin:empty-cornell and builtin:veach-mis";
             return Err(CliError::Usage(format!("'{BUILT_IN}{name}': no such scene is built in; {there}")));

@@ -45,6 +45,19 @@ pub enum CompareError {
     /// Not the same number of pixels.
     #[error("the pictures have {0} and {1} pixels; render both in one size")]
     Size(usize, usize),
+    /// Not the number of pixels that the size has.
+    #[error("the pictures have {pixels} pixels, which is not {width} times {height}")]
+    Shape {
+        /// Pixels of either picture.
+        pixels: usize,
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// A viewing distance that is none.
+    #[error("pixels to a degree must be from 1 to 1000; the default is 67")]
+    PixelsPerDegree,
     /// Room for one number a pixel.
     #[error("out of memory while comparing")]
     Memory,

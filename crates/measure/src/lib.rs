@@ -4,6 +4,7 @@
 //!   turns. A [`Curve`] knows its slope, the time to an error and its efficiency; a [`Point`] splits the error into
 //!   variance, bias and the reference's own part. Everything has an interval.
 //! * [`compare`]: how far one picture is from a reference: RMSE, relMSE, trimmed.
+//! * [`flip`]: how different the two look to a viewer, pixel by pixel. [`colour_map`]: colours for such maps.
 //!
 //! ```
 //! use std::{error::Error, ops::Range};
@@ -55,10 +56,12 @@
 //! Limits: intervals rest on the scatter of a few runs; five are few, two say little. Uses core, sampling, camera, scene
 //! and integrator.
 
+pub mod colour_map;
 mod compare;
 mod contender;
 mod convergence;
 mod curve;
+pub mod flip;
 mod gram;
 mod interval;
 mod point;

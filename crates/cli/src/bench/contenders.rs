@@ -1,0 +1,93 @@
+use etendue::camera::Filter;
+use etendue::integrator::PathTracer;
+use etendue::measure::{Contender, Estimator, RenderRun};
+use etendue::sampling::{Independent, Sampler, Sobol, Stratified};
+
+use crate::args::{BenchArgs, SamplerName};
+use crate::error::CliError;
+use crate::prepare::Built;
+use crate::session::Interrupt;
+
+/// One combination of the flags.
+pub(super) struct Entry {
+    pub(super) name: String,
+    pub(super) tracer: PathTracer,
+    sampler: SamplerName,
+    /// Seed of its first run; the others follow.
+    seed: u64,
+}
+
+/// Every integrator with every sampler, and the first of them again with other seeds: what it differs from itself by
+/// is the noise of the machine and of the estimate.
+pub(super) fn entries(args: &BenchArgs) -> Vec<Entry> {
+    let mut out = Vec::new();
+    for integrator in &args.integrator {
+        for &sampler in &args.sampler {
+            out.push(Entry {
+                name: format!("{} {}", integrator.word, word(sampler)),
+                tracer: integrator.tracer(args.method.max_depth),
+                sampler,
+                seed: args.method.seed,
+            });
+        }
+    }
+    if let Some(first) = out.first() {
+        let again = Entry {
+            name: format!("{} again", first.name),
+            seed: first.seed.wrapping_add(args.runs.into()),
+            ..*first
+        };
+        out.insert(1, again);
+    }
+    out
+}
+
+fn word(sampler: SamplerName) -> &'static str {
+    match sampler {
+        SamplerName::Sobol => "sobol",
+        SamplerName::Stratified => "stratified",
+        SamplerName::Independent => "independent",
+    }
+}
+
+/// The runs of one entry on a scene.
+pub(super) fn contender<'a>(
+    entry: &'a Entry,
+    runs: u32,
+    filter: Filter,
+    built: &'a Built,
+    interrupt: &'a Interrupt,
+) -> Result<Contender<'a>, CliError> {
+    let seeds = (0..u64::from(runs)).map(|k| entry.seed.wrapping_add(k));
+    let stage = Stage { entry, filter, built, interrupt };
+    let runs: Result<Vec<Box<dyn Estimator + 'a>>, CliError> = seeds
+        .map(|seed| match entry.sampler {
+            SamplerName::Sobol => stage.run(move |n| Sobol::new(seed, n), false),
+            SamplerName::Stratified => stage.run(move |n| Stratified::new(seed, n), true),
+            SamplerName::Independent => stage.run(move |n| Independent::new(seed, n), false),
+        })
+        .collect();
+    Ok(Contender { name: entry.name.clone(), runs: runs? })
+}
+
+#[derive(Clone, Copy)]
+struct Stage<'a> {
+    entry: &'a Entry,
+    filter: Filter,
+    built: &'a Built,
+    interrupt: &'a Interrupt,
+}
+
+impl<'a> Stage<'a> {
+    fn run<S: Sampler + 'a>(
+        self,
+        sampler: impl Fn(u32) -> S + 'a,
+        anew: bool,
+    ) -> Result<Box<dyn Estimator + 'a>, CliError> {
+        let Built { scene, prepared } = self.built;
+        let run = RenderRun::new(scene, &*prepared.camera, &self.entry.tracer, sampler)?
+            .filter(self.filter)
+            .progress(self.interrupt);
+        Ok(Box::new(if anew { run.anew() } else { run }))
+    }
+}
