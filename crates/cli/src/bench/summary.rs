@@ -48,11 +48,10 @@ impl SceneResult {
     pub(super) fn rows(&self) -> Vec<Row<'_>> {
         let (axis, target) = (self.axis(), self.target());
         let Some(first) = self.curves.first() else { return Vec::new() };
-        let row = |c: &'_ Curve| -> Option<_> { Some((c.points.last()?, c.last_common(first))) };
         self.curves
             .iter()
             .filter_map(|c| {
-                let (last, common) = row(c)?;
+                let (last, common) = (c.points.last()?, c.last_common(first));
                 let over = |metric| common.and_then(|(a, b)| a.efficiency_over(b, metric, axis));
                 Some(Row {
                     name: &c.name,
