@@ -3,5 +3,6 @@
 //! * [`compare`]: how far a picture is from a reference: RMSE, relMSE, trimmed.
 
 mod compare;
+pub mod report;
 
 pub use compare::{CompareError, Comparison, compare};
