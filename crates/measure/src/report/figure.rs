@@ -5,11 +5,8 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::markup::Html;
 
-/// Pixels of the page's column, and between pictures.
-const COLUMN: usize = 960;
-const GAP: usize = 16;
-/// A picture is not shown smaller than this while there is room.
-const SMALLEST: usize = 170;
+/// More than these side by side become too small to see anything in.
+const ABREAST: usize = 5;
 
 /// Pictures side by side.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,15 +45,14 @@ pub struct ColourScale {
 
 impl Gallery {
     pub(super) fn write(&self, h: &mut Html) {
-        let count = self.figures.len().max(1);
-        let share = (COLUMN - GAP.saturating_mul(count - 1).min(COLUMN)) / count;
-        let widest = self.figures.iter().map(|f| f.width as usize).max().unwrap_or(0);
-        // As many side by side as have room. What is pixelated may be enlarged, the others would only be blurred.
-        let most = if self.figures.iter().any(|f| f.pixelated) { share } else { share.min(widest) };
-        let cell = most.max(SMALLEST);
-        h.raw("<div class=\"gallery\">\n");
+        let abreast = self.figures.len().clamp(1, ABREAST);
+        // What is pixelated may be enlarged, the others would only be blurred.
+        let widest = self.figures.iter().map(|f| f.width).max().unwrap_or(0);
+        let most =
+            if self.figures.iter().any(|f| f.pixelated) { "100%".into() } else { format!("{widest}px") };
+        h.raw(&format!("<div class=\"gallery\" style=\"--abreast:{abreast};--most:{most}\">\n"));
         for figure in &self.figures {
-            figure.write(h, cell);
+            figure.write(h);
         }
         h.raw("</div>\n");
         if let Some(scale) = &self.scale {
@@ -66,8 +62,8 @@ impl Gallery {
 }
 
 impl Figure {
-    fn write(&self, h: &mut Html, cell: usize) {
-        h.raw(&format!("<figure style=\"width:{cell}px\">\n"));
+    fn write(&self, h: &mut Html) {
+        h.raw("<figure>\n");
         if self.png.is_empty() {
             h.raw("<p class=\"none\">no picture</p>\n");
         } else {

@@ -35,6 +35,7 @@
 //! ```
 
 mod figure;
+mod frame;
 mod markup;
 mod number;
 mod page;
@@ -42,6 +43,7 @@ mod plot;
 mod scale;
 mod svg;
 mod table;
+mod ticks;
 
 pub use figure::{ColourScale, Figure, Gallery};
 pub use number::number;

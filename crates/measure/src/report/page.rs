@@ -105,7 +105,12 @@ impl Page {
         }
         h.raw("<footer>\n<h2>").raw(ORIGIN).raw("</h2>\n");
         if !self.command.is_empty() {
-            h.raw("<pre><code>").text(&self.command).raw("</code></pre>\n");
+            h.raw("<pre><code>");
+            // A line may end between arguments, but not within `--name`.
+            for (i, argument) in self.command.split(' ').enumerate() {
+                h.raw(if i == 0 { "<span>" } else { " <span>" }).text(argument).raw("</span>");
+            }
+            h.raw("</code></pre>\n");
         }
         if !self.facts.is_empty() {
             h.raw("<dl>\n");

@@ -1,18 +1,9 @@
 //! Plots as inline SVG. Colours are the page's, by class.
 
-use super::markup::{Html, shortened};
+use super::frame::{Frame, pixel};
+use super::markup::Html;
 use super::plot::{Line, Plot, Point, Series};
 use super::scale::{Extent, Scale, place};
-
-const WIDTH: f64 = 480.0;
-const HEIGHT: f64 = 340.0;
-const TOP: f64 = 30.0;
-const RIGHT: f64 = 24.0;
-const BOTTOM: f64 = 56.0;
-/// Widest digit in the larger letters of narrow screens.
-const DIGIT: f64 = 8.4;
-/// What fits along an axis in those letters.
-const AXIS_LABEL: usize = 48;
 
 /// A plot as it came out.
 pub(super) struct Drawing {
@@ -71,25 +62,6 @@ pub(super) fn key(series: &Series, index: usize) -> String {
     )
 }
 
-/// The axes and the rectangle between them.
-struct Frame {
-    x: Scale,
-    y: Scale,
-    left: f64,
-}
-
-impl Frame {
-    /// Pixels from the left for 0…1 along the x axis.
-    fn right(&self, unit: f64) -> f64 {
-        self.left + unit * (WIDTH - RIGHT - self.left)
-    }
-
-    /// Pixels from the top for 0…1 along the y axis.
-    fn down(unit: f64) -> f64 {
-        TOP + (1.0 - unit) * (HEIGHT - BOTTOM - TOP)
-    }
-}
-
 /// A point that has its place in the plot.
 struct Spot<'a> {
     point: &'a Point,
@@ -118,17 +90,10 @@ pub(super) fn draw(plot: &Plot) -> Drawing {
             .for_each(|v| bands.add(v));
     }
     let (x, y) = (Scale::fit(plot.x.log, xs, Extent::new()), Scale::fit(plot.y.log, ys, bands));
-    let widest =
-        y.ticks().iter().filter_map(|t| t.label.as_ref()).map(|l| l.chars().count()).max().unwrap_or(0);
-    let frame = Frame { x, y, left: (16.0 + DIGIT * widest as f64).min(WIDTH / 3.0) };
+    let frame = Frame::new(x, y);
 
     let mut h = Html::default();
-    h.raw(&format!(
-        "<svg class=\"chart\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" "
-    ));
-    h.raw("role=\"img\" aria-label=\"").text(&plot.title).raw("\">\n");
-    grid(&mut h, &frame);
-    axis_labels(&mut h, plot, &frame);
+    frame.open(&mut h, plot);
     let guide = guide(&mut h, plot, &frame);
     let mut cut = false;
     let curves: Vec<Vec<Vec<Spot<'_>>>> =
@@ -209,55 +174,6 @@ fn split<T, U>(items: impl IntoIterator<Item = T>, keep: impl Fn(T) -> Option<U>
     out
 }
 
-fn grid(h: &mut Html, f: &Frame) {
-    let (left, right) = (pixel(f.left), pixel(WIDTH - RIGHT));
-    let (top, bottom) = (pixel(TOP), pixel(HEIGHT - BOTTOM));
-    let (mut minor, mut major) = (String::new(), String::new());
-    for t in f.x.ticks() {
-        let path = if t.label.is_some() { &mut major } else { &mut minor };
-        path.push_str(&format!("M{} {top}V{bottom}", pixel(f.right(t.at))));
-    }
-    for t in f.y.ticks() {
-        let path = if t.label.is_some() { &mut major } else { &mut minor };
-        path.push_str(&format!("M{left} {}H{right}", pixel(Frame::down(t.at))));
-    }
-    for (class, path) in [("minor", minor), ("major", major)] {
-        if !path.is_empty() {
-            h.raw(&format!("<path class=\"{class}\" d=\"{path}\"/>\n"));
-        }
-    }
-    h.raw(&format!("<path class=\"axis\" d=\"M{left} {top}V{bottom}H{right}\"/>\n"));
-    for t in f.x.ticks() {
-        if let Some(label) = &t.label {
-            let (x, y) = (pixel(f.right(t.at)), pixel(HEIGHT - BOTTOM + 20.0));
-            h.raw(&format!("<text class=\"xt\" x=\"{x}\" y=\"{y}\">")).text(label).raw("</text>\n");
-        }
-    }
-    for t in f.y.ticks() {
-        if let Some(label) = &t.label {
-            let (x, y) = (pixel(f.left - 8.0), pixel(Frame::down(t.at)));
-            h.raw(&format!("<text class=\"yt\" x=\"{x}\" y=\"{y}\" dy=\".35em\">"))
-                .text(label)
-                .raw("</text>\n");
-        }
-    }
-}
-
-fn axis_labels(h: &mut Html, plot: &Plot, f: &Frame) {
-    let (x, y) = (pixel(f.right(0.5)), pixel(HEIGHT - 14.0));
-    for (place, label) in [
-        (format!("class=\"xl\" x=\"{x}\" y=\"{y}\""), &plot.x.label),
-        // Level rather than turned, so that it can be read.
-        ("class=\"yl\" x=\"4\" y=\"16\"".to_owned(), &plot.y.label),
-    ] {
-        h.raw(&format!("<text {place}>")).text(&shortened(label, AXIS_LABEL));
-        if label.chars().count() > AXIS_LABEL {
-            h.raw("<title>").text(label).raw("</title>");
-        }
-        h.raw("</text>\n");
-    }
-}
-
 /// Draws the guide; whether it could.
 fn guide(h: &mut Html, plot: &Plot, f: &Frame) -> bool {
     let points: Vec<[f64; 2]> =
@@ -309,10 +225,4 @@ fn draw_marker(h: &mut Html, spot: &Spot<'_>, look: Look, spoken: &str) {
         "</title><circle class=\"hit\" r=\"9\"/><path class=\"mark\" d=\"{}\"/></g>\n",
         look.marker
     ));
-}
-
-/// Tenths of a pixel, without an idle `.0`.
-fn pixel(v: f64) -> String {
-    let text = format!("{v:.1}");
-    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
