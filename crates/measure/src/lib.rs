@@ -5,6 +5,7 @@
 //!   variance, bias and the reference's own part. Everything has an interval.
 //! * [`compare`]: how far one picture is from a reference: RMSE, relMSE, trimmed.
 //! * [`flip`]: how different the two look to a viewer, pixel by pixel. [`colour_map`]: colours for such maps.
+//! * [`report`]: plots, tables and pictures as one page.
 //!
 //! ```
 //! use std::{error::Error, ops::Range};
@@ -66,6 +67,7 @@ mod gram;
 mod interval;
 mod point;
 mod reference;
+pub mod report;
 
 pub use compare::{CompareError, Comparison, compare};
 pub use contender::{Contender, Drawn, Estimator, RenderRun};
