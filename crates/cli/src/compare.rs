@@ -1,4 +1,7 @@
+use etendue::io::write_png_pixels;
+use etendue::measure::colour_map::magma;
 use etendue::measure::compare;
+use etendue::measure::flip::{FlipOptions, flip};
 use serde_json::json;
 
 use crate::args::CompareArgs;
@@ -8,7 +11,7 @@ use crate::picture;
 use crate::session::{print, say};
 
 pub(crate) fn run(args: &CompareArgs) -> Result<(), CliError> {
-    if let Some(path) = &args.json {
+    for path in args.json.iter().chain(&args.flip) {
         check_place(path)?;
     }
     let (a, r) = (picture::read(&args.a)?, picture::read(&args.reference)?);
@@ -30,11 +33,13 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), CliError> {
             "no pixel is a number in both pictures; there is nothing to compare".into(),
         ));
     }
+    let map = flip(&a.rgb, &r.rgb, a.size, FlipOptions::default())?;
     let three = |v: [f64; 3]| v.map(|x| format!("{x:.6}")).join(" ");
     let ratio = c.ratio().map(|r| r.map_or_else(|| "-".to_owned(), |x| format!("{x:.6}"))).join(" ");
     print(&format!("RMSE            {:.6e}", c.rmse))?;
     print(&format!("relMSE          {:.6e}", c.relative_mse))?;
     print(&format!("relMSE trimmed  {:.6e}", c.relative_mse_trimmed))?;
+    print(&format!("FLIP            {:.6}", map.mean()))?;
     print(&format!("mean            {}", three(c.mean)))?;
     print(&format!("reference mean  {}", three(c.reference_mean)))?;
     print(&format!("ratio           {ratio}"))?;
@@ -49,11 +54,17 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), CliError> {
             "rmse": c.rmse,
             "relmse": c.relative_mse,
             "relmse_trimmed": c.relative_mse_trimmed,
+            "flip": map.mean(),
+            "flip_max": map.max(),
             "mean": c.mean,
             "reference_mean": c.reference_mean,
             "ratio": c.ratio(),
         });
         write_json(path, &report)?;
+    }
+    if let Some(path) = &args.flip {
+        let colours: Vec<[u8; 3]> = map.values.iter().map(|v| magma(*v)).collect();
+        write_png_pixels(path, a.size, &colours)?;
     }
     Ok(())
 }

@@ -2,7 +2,9 @@ use std::path::PathBuf;
 
 use etendue::camera::{CameraError, FilmError};
 use etendue::integrator::RenderError;
-use etendue::io::{FilmMergeError, FilmReadError, LoadError, PictureError, SamplesError, WriteError};
+use etendue::io::{
+    FilmMergeError, FilmReadError, LoadError, PictureError, PngError, SamplesError, WriteError,
+};
 use etendue::light::EnvironmentError;
 use etendue::measure::{CompareError, MeasureError};
 use etendue::scene::SceneError;
@@ -40,6 +42,9 @@ pub(crate) enum CliError {
     Samples(#[from] SamplesError),
     #[error(transparent)]
     Compare(#[from] CompareError),
+    /// A picture for the report.
+    #[error("the report: {0}")]
+    Png(#[from] PngError),
     #[error(transparent)]
     Measure(#[from] MeasureError),
     #[error(transparent)]

@@ -1,4 +1,5 @@
 use etendue::io::{Limits, LoadOptions, View, load_scene, read_film, read_picture, scene_endings};
+use etendue::measure::Reference;
 use etendue::scene::SceneBuilder;
 use serde_json::{Value, json};
 
@@ -102,6 +103,7 @@ fn film(args: &InfoArgs) -> Result<Value, CliError> {
         "scene_hash": format!("{:032x}", info.scene.value),
         "settings_hash": format!("{:032x}", info.settings.value),
         "opaque": info.is_opaque(),
+        "residual_relmse": Reference::from_film(film).map(|r| r.residual.relative),
         "digest": format!("{:032x}", film.digest()),
     }))
 }

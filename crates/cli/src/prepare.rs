@@ -89,6 +89,7 @@ fn built_in(name: &str, view: &ViewArgs, size: Option<UVec2>) -> Result<Prepared
     let Preset { mut builder, eye, target, vertical_fov_deg } = match name {
         "cornell" => presets::cornell_box(),
         "empty-cornell" => presets::empty_cornell_box(),
+        "veach-mis" => presets::veach_mis(),
 
         _ => {
             let there = "there are builtin:cornell, builtin:empty-cornell and builtin:veach-mis";

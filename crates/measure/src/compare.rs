@@ -58,6 +58,14 @@ pub enum CompareError {
     /// A viewing distance that is none.
     #[error("pixels to a degree must be from 1 to 1000; the default is 67")]
     PixelsPerDegree,
+    /// Not one picture and one cost for each run.
+    #[error("{pictures} pictures and the costs of {costs} runs; give one of both for each run")]
+    Runs {
+        /// Pictures.
+        pictures: usize,
+        /// Costs.
+        costs: usize,
+    },
     /// Room for one number a pixel.
     #[error("out of memory while comparing")]
     Memory,

@@ -100,7 +100,7 @@ pub fn race(
             break;
         }
         for (lane, contender) in lanes.iter_mut().zip(contenders.iter()) {
-            lane.look(contender, spp, reference);
+            lane.look(contender, spp, reference)?;
         }
         if !lanes.iter().any(|l| l.running) {
             break;
@@ -173,10 +173,18 @@ impl Lane {
     }
 
     /// Adds a point.
-    fn look(&mut self, contender: &Contender<'_>, spp: u64, reference: Option<&Reference>) {
+    fn look(
+        &mut self,
+        contender: &Contender<'_>,
+        spp: u64,
+        reference: Option<&Reference>,
+    ) -> Result<(), MeasureError> {
         if self.running {
             let pictures: Vec<_> = contender.runs.iter().map(|r| r.picture()).collect();
-            self.curve.points.push(Point::new(spp, self.costs.clone(), &pictures, reference));
+            let point = Point::new(spp, self.costs.clone(), &pictures, reference)
+                .map_err(|e| MeasureError::Contender { name: contender.name.clone(), source: Box::new(e) })?;
+            self.curve.points.push(point);
         }
+        Ok(())
     }
 }

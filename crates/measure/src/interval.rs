@@ -28,6 +28,13 @@ impl Measured {
         self.interval.unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
     }
 
+    /// The larger side of the interval over the value; `None` where that says nothing.
+    pub fn relative_half_width(&self) -> Option<f64> {
+        let [low, high] = self.interval?;
+        let half = (high - self.value).max(self.value - low) / self.value.abs();
+        half.is_finite().then_some(half)
+    }
+
     pub(crate) fn map_increasing(self, f: impl Fn(f64) -> f64) -> Self {
         Self { value: f(self.value), interval: self.interval.map(|i| i.map(&f)) }
     }

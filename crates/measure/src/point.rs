@@ -1,7 +1,7 @@
 use crate::compare::{EPSILON, finite, trimmed_mean};
 use crate::gram::Gram;
 use crate::interval::{Measured, jackknife, jackknife_factor};
-use crate::{Reference, Residual};
+use crate::{CompareError, Reference, Residual};
 
 /// How the distance of two pictures is told as one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -78,8 +78,29 @@ pub struct Point {
 }
 
 impl Point {
-    /// From the pictures of all runs, of one length. Without a reference their mean takes its place in the weights.
-    pub(crate) fn new(
+    /// What the pictures of independent runs tell, linear radiance row by row. Without a reference their mean takes its
+    /// place in the weights, and only variance is known.
+    ///
+    /// # Errors
+    /// No pictures; pictures, reference and costs that do not fit together.
+    pub fn new(
+        spp: u64,
+        costs: Vec<Costs>,
+        pictures: &[Vec<[f32; 3]>],
+        reference: Option<&Reference>,
+    ) -> Result<Self, CompareError> {
+        let Some(first) = pictures.first().filter(|_| costs.len() == pictures.len()) else {
+            return Err(CompareError::Runs { pictures: pictures.len(), costs: costs.len() });
+        };
+        let pixels = reference.map_or(first.len(), |r| r.rgb.len());
+        if let Some(other) = pictures.iter().find(|p| p.len() != pixels) {
+            return Err(CompareError::Size(other.len(), pixels));
+        }
+        Ok(Self::of_equal(spp, costs, pictures, reference))
+    }
+
+    /// The same for parts of one length, at least one picture among them.
+    fn of_equal(
         spp: u64,
         costs: Vec<Costs>,
         pictures: &[Vec<[f32; 3]>],

@@ -64,6 +64,9 @@ pub(crate) struct CompareArgs {
     /// Write the numbers to a file
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
+    /// Write where the two look different, in false colours
+    #[arg(long, value_name = "OUT.png")]
+    pub(crate) flip: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

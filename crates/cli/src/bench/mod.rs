@@ -2,6 +2,8 @@
 
 mod contenders;
 mod json;
+mod maps;
+mod page;
 mod summary;
 mod table;
 
@@ -10,6 +12,7 @@ use std::path::{Path, PathBuf};
 use etendue::SystemClock;
 use etendue::core::UVec2;
 use etendue::integrator::Integrator;
+use etendue::io::write_atomically;
 use etendue::measure::{Budget, Clocks, Reference, race};
 use etendue::sampling::Sobol;
 use serde_json::json;
@@ -51,6 +54,10 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
         Ok(results)
     })?;
     let mut written = Vec::new();
+    if let Some(path) = &args.html {
+        write_atomically(path, page::html(&results, &command())?.as_bytes())?;
+        written.push(path.display().to_string());
+    }
     if let Some(path) = &args.json {
         let scenes: Vec<_> = results.iter().map(json::value).collect();
         let report = json!({

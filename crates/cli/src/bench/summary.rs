@@ -68,13 +68,19 @@ impl SceneResult {
     }
 }
 
+/// Squared bias as a part of relMSE.
+pub(super) fn bias_share(p: &Point) -> Option<Measured> {
+    let error = p.error(Metric::Relative)?.value;
+    let bias = p.bias_squared(Metric::Relative)?;
+    Some(Measured { value: bias.value / error, interval: bias.interval.map(|i| i.map(|x| x / error)) })
+}
+
 /// `1.234e-3 ±2.1%`: the larger side of the interval.
 pub(super) fn with_percent(m: Option<Measured>) -> String {
     let Some(m) = m else { return "-".into() };
-    let half = m.interval.map(|[low, high]| (high - m.value).max(m.value - low) / m.value.abs());
-    match half {
-        Some(h) if h.is_finite() => format!("{:.3e} ±{:.1}%", m.value, 100.0 * h),
-        _ => format!("{:.3e}", m.value),
+    match m.relative_half_width() {
+        Some(h) => format!("{:.3e} ±{:.1}%", m.value, 100.0 * h),
+        None => format!("{:.3e}", m.value),
     }
 }
 
@@ -92,7 +98,8 @@ pub(super) fn short(x: f64) -> String {
     match x.abs() {
         a if a == 0.0 || !(1e-3..1e5).contains(&a) => format!("{x:.2e}"),
         a if a < 0.1 => format!("{x:.4}"),
-        a if a < 10.0 => format!("{x:.3}"),
+        a if a < 1.0 => format!("{x:.3}"),
+        a if a < 10.0 => format!("{x:.2}"),
         a if a < 100.0 => format!("{x:.1}"),
         _ => format!("{x:.0}"),
     }

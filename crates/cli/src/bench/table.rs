@@ -1,6 +1,6 @@
 use etendue::measure::{Axis, Known, Metric};
 
-use super::summary::{Row, SceneResult, short, with_bounds, with_percent};
+use super::summary::{Row, SceneResult, bias_share, short, with_bounds, with_percent};
 
 /// Lines for people.
 pub(super) fn lines(result: &SceneResult) -> Vec<String> {
@@ -57,19 +57,12 @@ pub(super) fn lines(result: &SceneResult) -> Vec<String> {
 fn cells(r: &Row<'_>) -> [String; 9] {
     let p = r.last;
     let error = p.error(Metric::Relative).or_else(|| p.variance(Metric::Relative));
-    let bias = p.bias_squared(Metric::Relative).zip(p.error(Metric::Relative)).map(|(b, e)| {
-        let share = |x: f64| short(x / e.value);
-        match b.interval {
-            Some([low, high]) => format!("{} [{}, {}]", share(b.value), share(low), share(high)),
-            None => share(b.value),
-        }
-    });
     let median = |axis| p.median_cost(axis).map_or_else(|| "-".to_owned(), short);
     [
         r.name.to_owned(),
         p.spp.to_string(),
         with_percent(error),
-        bias.unwrap_or_else(|| "-".into()),
+        with_bounds(bias_share(p)),
         median(Axis::Seconds),
         median(Axis::CpuSeconds),
         with_bounds(r.slope),
