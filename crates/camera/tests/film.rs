@@ -92,6 +92,24 @@ proptest! {
 }
 
 #[test]
+fn a_cleared_film_is_a_new_one() {
+    let new = Film::with_planes(SIZE, 2, Planes::ALL).unwrap();
+    let mut film = new.clone();
+    let hit = FirstHit {
+        albedo: Spectrum::ONE,
+        normal: Vec3A::Z,
+        depth: 2.0,
+        ids: Ids { inst: 1, geom: 2, prim: 3 },
+    };
+    film.add(UVec2::ONE, 1, Spectrum::ONE);
+    film.add_alpha(UVec2::ONE, 1.0);
+    film.add_first_hit(UVec2::ONE, 7, &hit);
+    assert_ne!(film, new);
+    film.clear();
+    assert_eq!(film, new);
+}
+
+#[test]
 fn films_that_do_not_fit_together_are_refused_and_left_alone() {
     let mut film = Film::with_planes(SIZE, 2, Planes::default()).unwrap();
     film.add(UVec2::ZERO, 0, Spectrum::ONE);

@@ -17,13 +17,16 @@ use crate::session::print;
 /// Independent parts of the point set. Two would do for the whole picture; four also tell of each pixel, and cost a
 /// tenth more noise than one.
 const REPLICATES: u32 = 4;
+/// The key by which a file of facts is known.
+const RESIDUAL: &str = "residual_relmse";
 
 pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     let output = with_film(args);
     let besides: Vec<PathBuf> =
-        output.iter().filter(|p| !is_film(p)).map(|p| p.with_extension("json")).collect();
+        output.iter().filter(|p| is_linear(p)).map(|p| p.with_extension("json")).collect();
     for path in &besides {
         check_place(path)?;
+        refuse_others(path)?;
     }
     let there = output.iter().find(|p| is_film(p) && p.exists()).cloned();
     let rendered = render::render(&RenderArgs {
@@ -70,6 +73,21 @@ fn with_film(args: &ReferenceArgs) -> Vec<PathBuf> {
     output
 }
 
+/// Whether a picture can be a reference again: those of 8 bits cannot.
+fn is_linear(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr") || e.eq_ignore_ascii_case("hdr"))
+}
+
+/// A file that has the name by chance is not overwritten.
+fn refuse_others(path: &Path) -> Result<(), CliError> {
+    let ours = |text: String| text.contains(RESIDUAL);
+    if path.exists() && !std::fs::read_to_string(path).is_ok_and(ours) {
+        let why = "is in the way and holds something else; choose another name for the picture";
+        return Err(CliError::Usage(format!("'{}' {why}", path.display())));
+    }
+    Ok(())
+}
+
 /// What is written beside a picture, which cannot tell its error itself.
 fn facts(scene: &Path, film: &Film, spp: u64, reference: &Reference) -> serde_json::Value {
     let size = film.size();
@@ -85,7 +103,7 @@ fn facts(scene: &Path, film: &Film, spp: u64, reference: &Reference) -> serde_js
         "by": format!("etendue {}", env!("CARGO_PKG_VERSION")),
         "spp": spp,
         "mean": sum.map(|s| s / pixels),
-        "residual_relmse": relative,
+        RESIDUAL: relative,
         "residual_relmse_trim": trimmed,
         "residual_rmse": absolute.sqrt(),
     })
