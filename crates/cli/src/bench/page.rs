@@ -81,9 +81,9 @@ fn judged(result: &SceneResult) -> Table {
         let mut cells = vec![Cell::text(r.name), Cell::number(p.spp.to_string())];
         let numbers = [
             percent(error),
-            bias_share(p).map_or_else(|| "–".to_owned(), |b| with_bounds(Some(b))),
+            bias_share(p).map_or_else(|| "–".to_owned(), |b| plus_minus(b, 100.0, 1, " %")),
             median(p, Axis::CpuSeconds),
-            with_bounds(r.slope),
+            r.slope.map_or_else(|| "–".to_owned(), |s| plus_minus(s, 1.0, 2, "")),
             percent(r.efficiency),
             with_bounds(r.ratio),
         ];
@@ -172,6 +172,18 @@ fn median(p: &Point, axis: Axis) -> String {
     p.median_cost(axis).map_or_else(|| "–".to_owned(), number)
 }
 
+/// A number around zero and the larger side of its interval, both times a factor.
+fn plus_minus(m: Measured, factor: f64, digits: usize, unit: &str) -> String {
+    let value = format!("{:.digits$}", m.value * factor).replace('-', "−");
+    match m.interval {
+        Some([low, high]) => {
+            let half = (high - m.value).max(m.value - low) * factor;
+            format!("{value} ±{half:.digits$}{unit}")
+        }
+        None => value + unit,
+    }
+}
+
 /// A number and the larger side of its interval in percent.
 fn percent(m: Option<Measured>) -> String {
     let Some(m) = m else { return "–".into() };
@@ -210,22 +222,26 @@ fn plots(result: &SceneResult) -> Vec<Plot> {
     ];
     if result.reference.is_some() {
         let split = result.curves.iter().enumerate().flat_map(|(i, c)| {
+            // What the bias is at most can be drawn; the estimate scatters around zero and has no place half of the time.
+            let at_most = |p: &Point| {
+                let [_, high] = p.bias_squared(Metric::Relative)?.interval?;
+                Some(Measured::without_interval(high))
+            };
             let mut variance = series(c, i, Axis::Samples, |p| p.variance(Metric::Relative), Line::Solid);
-            let mut bias = series(c, i, Axis::Samples, |p| p.bias_squared(Metric::Relative), Line::Dashed);
+            let mut bias = series(c, i, Axis::Samples, at_most, Line::Dashed);
             variance.name += ", variance";
-            bias.name += ", bias²";
+            bias.name += ", bias² at most";
             [variance, bias]
         });
         let split = split.filter(|s| !s.points.is_empty()).collect();
         let mut plot = plot(
-            "Variance and bias² against samples".into(),
+            "Variance, and what bias² is at most".into(),
             "camera samples of one run",
             "part of relMSE",
             split,
         );
         plot.notes.push(
-            "A bias² that scatters around zero is negative half of the time, and is then not on the plot."
-                .into(),
+            "“At most” is the upper end of the interval. Without bias it falls with the variance; a bias makes it level out.".into(),
         );
         out.push(plot);
     }
