@@ -71,6 +71,6 @@ pub use loaded::{LoadReport, Loaded, SceneCamera, View};
 #[cfg(any(feature = "gltf", feature = "obj", feature = "png", feature = "hdr", feature = "exr"))]
 pub use picture::{ImageBudget, Picture, PictureError, decode_texture, read_picture, read_picture_bytes};
 #[cfg(feature = "png")]
-pub use png::write_png;
+pub use png::{PngError, png_bytes, write_png, write_png_pixels};
 pub use resolver::{FolderResolver, NoFiles, ResolveError, Resolver, read_bytes};
 pub use tonemap::ToneMap;

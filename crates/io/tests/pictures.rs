@@ -6,7 +6,9 @@ mod common;
 use common::Folder;
 use etendue_camera::{Film, FirstHit, Ids, Planes};
 use etendue_core::{Spectrum, UVec2, Vec3A};
-use etendue_io::{Digest, ExrInfo, ToneMap, WriteError, write_exr, write_png};
+use etendue_io::{
+    Digest, ExrInfo, PngError, ToneMap, WriteError, png_bytes, write_exr, write_png, write_png_pixels,
+};
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
 
 const SIZE: UVec2 = UVec2::new(5, 3);
@@ -45,6 +47,38 @@ fn png_reads_back() {
         }
     }
     assert_eq!(folder.names(), ["a.png"]);
+}
+
+#[test]
+fn pixels_become_a_png_as_they_are() {
+    let folder = Folder::new("png-pixels");
+    let path = folder.path().join("a.png");
+    let pixels: Vec<[u8; 3]> = (0..15u8).map(|i| [i, 255 - i, 17 * i]).collect();
+    write_png_pixels(&path, [5, 3], &pixels).unwrap();
+    let bytes = std::fs::read(&path).unwrap();
+    assert_eq!(bytes, png_bytes([5, 3], &pixels).unwrap());
+    let image = image::load_from_memory(&bytes).unwrap();
+    assert_eq!(image.color(), image::ColorType::Rgb8);
+    let image = image.into_rgb8();
+    assert_eq!(image.dimensions(), (5, 3));
+    assert_eq!(image.pixels().map(|p| p.0).collect::<Vec<_>>(), pixels, "row by row from the top");
+}
+
+#[test]
+fn pixels_that_do_not_fill_the_size_are_refused() {
+    let folder = Folder::new("png-refused");
+    let path = folder.path().join("a.png");
+    let pixels = [[1, 2, 3]; 6];
+    // 2¹⁶ · 2¹⁶ would be 0 in 32 bits.
+    for size in [[2, 2], [3, 3], [0, 6], [u32::MAX, u32::MAX], [1 << 16, 1 << 16]] {
+        assert_eq!(png_bytes(size, &pixels), Err(PngError::Pixels { size, given: 6 }));
+        assert!(matches!(write_png_pixels(&path, size, &pixels), Err(WriteError::Encode { .. })));
+    }
+    assert!(matches!(png_bytes([0, 0], &[]), Err(PngError::Encode(_))));
+    assert!(matches!(png_bytes([1 << 16, 1 << 16], &[]), Err(PngError::Pixels { .. })));
+    let message = png_bytes([4, 2], &pixels).unwrap_err().to_string();
+    assert_eq!(message, "6 pixels for a picture of 4x2");
+    assert_eq!(folder.names(), [""; 0], "nothing is written");
 }
 
 fn channel(image: &exr::image::FlatImage, name: &str) -> Option<FlatSamples> {

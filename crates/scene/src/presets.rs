@@ -1,8 +1,8 @@
 //! Scenes built in code, for examples, tests and benchmarks. Each comes with the view it was made for.
 
-use etendue_core::{Spectrum, Transform, Vec3A};
+use etendue_core::{Spectrum, Transform, Vec3A, vector};
 use etendue_geometry::{Parallelogram, Sphere, presets as meshes};
-use etendue_material::{Diffuse, Glass, Metal};
+use etendue_material::{Absorber, Diffuse, Glass, Metal};
 
 use crate::{Emission, SceneBuilder};
 
@@ -75,4 +75,57 @@ pub fn cornell_box() -> Preset {
         b.instance(ring, placed);
     }
     p
+}
+
+/// Radiance of the largest lamp over the plates, W·m⁻²·sr⁻¹, and its radius, metres.
+const LARGEST_LAMP: (f32, f32) = (1.6, 0.27);
+
+/// Four glossy plates under four lamps of equal power (after Veach & Guibas 1995, Fig. 2; own dimensions). From the far
+/// plate to the near one they get rougher; from left to right the lamps get wider, each by a factor of three. Every
+/// plate is turned so that it mirrors the lamps to the eye. A dim wall and floor stand behind.
+///
+/// Where a smooth plate mirrors a large lamp, light sampling alone is noisy; where a rough plate mirrors a small one,
+/// BSDF sampling alone is. Made for pictures of 4 : 3.
+pub fn veach_mis() -> Preset {
+    let mut b = SceneBuilder::new();
+    let eye = Vec3A::new(0.0, 1.9, 4.4);
+    let lamps = Vec3A::new(0.0, 1.5, 0.0);
+    let dim = b.material(Diffuse::new(Spectrum::gray(0.25)));
+    let black = b.material(Absorber);
+    let sheet = |b: &mut SceneBuilder, o: Vec3A, u: Vec3A, v: Vec3A, m| {
+        // The edges are at right angles and have a length.
+        if let Ok(p) = Parallelogram::new(o, u, v) {
+            b.add(p, m);
+        }
+    };
+    let corner = Vec3A::new(-4.0, 0.0, -0.6);
+    sheet(&mut b, corner, Vec3A::Z * 6.0, Vec3A::X * 8.0, dim);
+    sheet(&mut b, corner, Vec3A::X * 8.0, Vec3A::Y * 4.0, dim);
+
+    // Height and depth of the centre, and roughness.
+    let plates = [(0.70, -0.05, 0.07), (0.47, 0.30, 0.14), (0.31, 0.70, 0.22), (0.20, 1.12, 0.34)];
+    for (y, z, roughness) in plates {
+        let center = Vec3A::new(0.0, y, z);
+        let metal = b.material(Metal::aluminium(roughness));
+        // Halfway between eye and lamps. The plate is flat along x, so this holds along its whole middle line.
+        let up = vector::normalize(vector::normalize(eye - center) + vector::normalize(lamps - center));
+        let (u, v) = (Vec3A::X * 2.6, vector::cross(Vec3A::X, up) * -0.34);
+        sheet(&mut b, center - (u + v) * 0.5, u, v, metal);
+    }
+
+    let (radiance, largest) = LARGEST_LAMP;
+    // Of mean 1, so that the powers are equal; they tell the reflections apart.
+    let row = [
+        (-1.05, 27.0, Spectrum::rgb(1.2, 0.9, 0.9)),
+        (-0.35, 9.0, Spectrum::rgb(1.1, 1.1, 0.8)),
+        (0.35, 3.0, Spectrum::rgb(0.85, 1.15, 1.0)),
+        (1.05, 1.0, Spectrum::rgb(0.85, 0.95, 1.2)),
+    ];
+    for (x, smaller, tint) in row {
+        if let Ok(s) = Sphere::new(lamps + Vec3A::X * x, largest / smaller) {
+            let lamp = b.add(s, black);
+            b.emit(lamp, Emission::new(tint * (radiance * smaller * smaller)));
+        }
+    }
+    Preset { builder: b, eye, target: Vec3A::new(0.0, 0.69, 0.5), vertical_fov_deg: 36.0 }
 }
