@@ -16,7 +16,7 @@ use study::{Outcome, Study, View};
 
 const NAMES: [&str; 5] = ["samples", "stratified", "direct", "mis", "bounces"];
 fn main() -> Outcome<()> {
-    let (mut size, mut spp, mut out, mut names) = (128, 4096, PathBuf::from("."), Vec::new());
+    let (mut size, mut spp, mut out, mut names) = (128, 2048, PathBuf::from("."), Vec::new());
     let mut args = std::env::args().skip(1);
     while let Some(arg) = args.next() {
         let mut value = || args.next().ok_or(format!("{arg} needs a value"));
@@ -138,7 +138,7 @@ fn mis(view: &View) -> Outcome<Study<'_>> {
 fn bounces(view: &View) -> Outcome<Study<'_>> {
     let mut study = Study::new(
         view,
-        "Fig. 15.2: emission, then one, two and three bounces (and all of them). Each adds light, ever less.",
+        "Fig. 15.2: emission, then one, two and three bounces (and all of them). Each adds light.",
     );
     let limits = [
         ("emission", Some(0)),

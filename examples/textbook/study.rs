@@ -6,7 +6,7 @@ use std::path::Path;
 use etendue::SystemClock;
 use etendue::io::{self, ToneMap};
 use etendue::measure::{
-    self, Axis, Budget, Clocks, Contender, Estimator, Metric, Point, Reference, RenderRun, Residual, race,
+    self, Budget, Clocks, Contender, Estimator, Metric, Point, Reference, RenderRun, Residual, race,
 };
 use etendue::prelude::*;
 use etendue::scene::presets::Preset;
@@ -92,7 +92,7 @@ struct Line {
     brightness: f64,
     /// relMSE of the regions.
     errors: Vec<measure::Measured>,
-    /// Whether the reference is good enough to tell it.
+    /// Whether much of it may be the reference's.
     limited: Vec<bool>,
 }
 
@@ -144,16 +144,19 @@ impl<'a> Study<'a> {
         let mut line = Line {
             name,
             spp,
-            seconds: last.median_cost(Axis::Seconds).unwrap_or(f64::NAN),
+            // The least: other programs only add.
+            seconds: last.costs.iter().map(|c| c.seconds).fold(f64::INFINITY, f64::min),
             brightness: mean(pictures.iter().flatten()) / mean(&view.reference),
             errors: Vec::new(),
             limited: Vec::new(),
         };
         for (_, region) in self.all_regions() {
             let parts: Vec<Picture> = pictures.iter().map(|p| view.crop(p, region)).collect();
-            let point = Point::new(spp.into(), last.costs.clone(), &parts, Some(&view.reference(region)))?;
-            line.errors.push(point.error(Metric::Relative).ok_or("no pictures")?);
-            line.limited.push(point.is_limited_by_reference(Metric::Relative));
+            let reference = view.reference(region);
+            let point = Point::new(spp.into(), last.costs.clone(), &parts, Some(&reference))?;
+            let error = point.error(Metric::Relative).ok_or("no pictures")?;
+            line.limited.push(error.value < 10.0 * reference.residual.relative);
+            line.errors.push(error);
         }
         self.table.push(line);
         pictures.into_iter().next().ok_or_else(|| "no seed".into())
@@ -205,7 +208,7 @@ impl<'a> Study<'a> {
             print!("{:>28.3e}", view.reference(region).residual.relative);
         }
         println!(
-            "\n  The reference's own error is in every number; of those with ~ it is the larger part. ± holds 95 %."
+            "\n  The reference's own error is in every number; ~ marks those of which it may be a tenth or more. ± holds 95 %."
         );
     }
 
