@@ -1,8 +1,8 @@
 use etendue_core::{Spectrum, Vec2, Vec3A};
 
 use crate::{
-    Black, Bsdf, BsdfSample, Conductor, Lambert, Lobes, Mirror, Mode, Principled, RoughDielectric, Scatter,
-    SmoothDielectric, ThinDielectric,
+    Black, BlinnPhong, Bsdf, BsdfSample, Conductor, Lambert, Lobes, Mirror, Mode, OrenNayar, Phong,
+    Principled, RoughDielectric, Scatter, SmoothDielectric, ThinDielectric,
 };
 
 /// A BSDF at one point, as an integrator holds it: by value where it is ours, through one door where it is a user's.
@@ -23,6 +23,12 @@ pub enum BsdfAt<'a> {
     ThinDielectric(ThinDielectric),
     /// glTF's surface.
     Principled(Principled),
+    /// A rough matte surface.
+    OrenNayar(OrenNayar),
+    /// A lobe around the mirrored direction.
+    Phong(Phong),
+    /// A lobe around the half vector.
+    BlinnPhong(BlinnPhong),
     /// Nothing comes back.
     Black(Black),
     /// A user's, living as long as the scene.
@@ -42,6 +48,9 @@ macro_rules! dispatch {
             BsdfAt::RoughDielectric($b) => $e,
             BsdfAt::ThinDielectric($b) => $e,
             BsdfAt::Principled($b) => $e,
+            BsdfAt::OrenNayar($b) => $e,
+            BsdfAt::Phong($b) => $e,
+            BsdfAt::BlinnPhong($b) => $e,
             BsdfAt::Black($b) => $e,
             BsdfAt::Ref($b) => $e,
             BsdfAt::Open($b) => $e,
@@ -59,6 +68,9 @@ impl std::fmt::Debug for BsdfAt<'_> {
             Self::RoughDielectric(b) => b.fmt(f),
             Self::ThinDielectric(b) => b.fmt(f),
             Self::Principled(b) => b.fmt(f),
+            Self::OrenNayar(b) => b.fmt(f),
+            Self::Phong(b) => b.fmt(f),
+            Self::BlinnPhong(b) => b.fmt(f),
             Self::Black(b) => b.fmt(f),
             Self::Ref(b) => write!(f, "Ref({:?})", b.lobes()),
             Self::Open(b) => write!(f, "Open({:?})", b.lobes()),

@@ -16,6 +16,10 @@
 //! assert!(s.weight.max_channel() <= 1.0, "a metal returns no more than it gets");
 //! ```
 //!
+//! Diffuse: [`Lambert`], [`OrenNayar`]; metal: [`Conductor`], [`Mirror`]; glass: [`SmoothDielectric`],
+//! [`RoughDielectric`], [`ThinDielectric`]; glTF's [`Principled`]; the lobes of older pictures: [`Phong`],
+//! [`BlinnPhong`].
+//!
 //! Limits: microfacet models but [`Principled`] are single scattering, so rough ones lose energy; three channels, so no
 //! dispersion.
 //!
@@ -25,6 +29,7 @@
 
 mod albedo;
 mod black;
+mod blinn_phong;
 mod bsdf;
 mod bsdf_at;
 mod conductor;
@@ -35,9 +40,13 @@ pub mod fresnel;
 mod ggx;
 mod lambert;
 mod mirror;
+mod oren_nayar;
+mod phong;
+mod power_lobe;
 mod principled;
 
 pub use black::Black;
+pub use blinn_phong::BlinnPhong;
 pub use bsdf::{Bsdf, BsdfSample, Lobes, Mode, Scatter};
 pub use bsdf_at::BsdfAt;
 pub use conductor::Conductor;
@@ -48,4 +57,6 @@ pub use fresnel::MetalFresnel;
 pub use ggx::{Ggx, Masking};
 pub use lambert::Lambert;
 pub use mirror::Mirror;
+pub use oren_nayar::OrenNayar;
+pub use phong::Phong;
 pub use principled::{Meaning, Principled};

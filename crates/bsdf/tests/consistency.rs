@@ -3,8 +3,8 @@
 mod support;
 
 use etendue_bsdf::{
-    Bsdf, BsdfAt, Conductor, Ggx, Lambert, Lobes, Masking, MetalFresnel, Mode, RoughDielectric,
-    SmoothDielectric,
+    BlinnPhong, Bsdf, BsdfAt, Conductor, Ggx, Lambert, Lobes, Masking, MetalFresnel, Mode, OrenNayar, Phong,
+    RoughDielectric, SmoothDielectric,
 };
 use etendue_core::{Spectrum, Vec2, Vec3A, math};
 use proptest::prelude::*;
@@ -19,6 +19,14 @@ fn any(rng: &mut Rng) -> Vec3A {
 fn rough_models() -> Vec<(String, Box<dyn Bsdf>)> {
     let mut out: Vec<(String, Box<dyn Bsdf>)> =
         vec![("lambert".into(), Box::new(Lambert::new(Spectrum::rgb(0.2, 0.5, 0.9))))];
+    let (base, lobe) = (Spectrum::rgb(0.3, 0.6, 0.1), Spectrum::rgb(0.6, 0.2, 0.9));
+    for n in [1.0, 10.0, 100.0, 1e4] {
+        out.push((format!("phong {n}"), Box::new(Phong::new(base, lobe, n))));
+        out.push((format!("blinn {n}"), Box::new(BlinnPhong::new(base, lobe, n))));
+    }
+    for r in [0.05, 0.5, 1.0] {
+        out.push((format!("eon {r}"), Box::new(OrenNayar::new(Spectrum::rgb(0.2, 0.5, 1.0), r))));
+    }
     for masking in [Masking::Separable, Masking::HeightCorrelated] {
         for (ax, ay) in [(0.05, 0.05), (0.3, 0.3), (1.0, 1.0), (0.1, 0.6)] {
             let ggx = Ggx::anisotropic(ax, ay);
@@ -198,6 +206,20 @@ fn any_bsdf() -> impl Strategy<Value = BsdfAt<'static>> {
     })
 }
 
+fn any_lobe() -> impl Strategy<Value = BsdfAt<'static>> {
+    let n = prop_oneof![Just(0.0f32), Just(1.0), Just(1e6), Just(f32::NAN), 0.0f32..2e4];
+    (0..3, n, 0.0f32..=1.0, prop_oneof![Just(0.0f32), Just(1.0), 0.0f32..=1.0]).prop_map(
+        |(kind, n, kd, ks)| {
+            let (kd, ks) = (Spectrum::rgb(kd, 0.5 * kd, 0.0), Spectrum::gray(ks));
+            match kind {
+                0 => BsdfAt::Phong(Phong::new(kd, ks, n)),
+                1 => BsdfAt::BlinnPhong(BlinnPhong::new(kd, ks, n)),
+                _ => BsdfAt::OrenNayar(OrenNayar::new(kd, ks.r())),
+            }
+        },
+    )
+}
+
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: 40_000,
@@ -228,6 +250,39 @@ proptest! {
                 prop_assert!(s.weight.r() >= 0.0 && s.weight.is_finite());
             }
             prop_assert!(bsdf.albedo(wo).is_finite());
+        }
+    }
+
+    /// Lobes whose weights may be more than 1: as finite.
+    #[test]
+    fn nothing_breaks_in_lobes(
+        bsdf in any_lobe(),
+        wo in any_direction(),
+        wi in any_direction(),
+        l in any_unit_number(),
+        (a, b) in (any_unit_number(), any_unit_number()),
+    ) {
+        let (f, pdf) = bsdf.eval_pdf(wo, wi, Mode::Radiance);
+        prop_assert!(f.is_finite() && pdf.is_finite() && pdf >= 0.0);
+        prop_assert!(f.r() >= 0.0 && f.g() >= 0.0 && f.b() >= 0.0);
+        if let Some(s) = bsdf.sample(wo, l, Vec2::new(a, b), Mode::Radiance) {
+            prop_assert!(s.wi.is_finite() && s.wi.z != 0.0);
+            prop_assert!((s.wi.dot(s.wi) - 1.0).abs() < 1e-5, "{}", s.wi);
+            prop_assert!(s.pdf > 0.0 && s.pdf.is_finite() && s.eta == 1.0);
+            // Half vectors are drawn evenly for n = 0: 4 (wo·h) cos θi / cos θh, up to 8.
+            prop_assert!(s.weight.max_channel() <= 8.001 && s.weight.r() >= 0.0, "{s:?}");
+        }
+        prop_assert!(bsdf.albedo(wo).is_finite());
+    }
+
+    #[test]
+    fn nonsense_stays_finite_in_lobes(bsdf in any_lobe(), bad in 0..4usize, wi in any_direction()) {
+        let nan = f32::NAN;
+        let nonsense =
+            [Vec3A::splat(nan), Vec3A::splat(f32::INFINITY), Vec3A::splat(1e30), Vec3A::new(nan, 0.0, 1.0)][bad];
+        for (o, i) in [(nonsense, wi), (wi, nonsense)] {
+            let (f, pdf) = bsdf.eval_pdf(o, i, Mode::Radiance);
+            prop_assert!(f.is_finite() && pdf.is_finite(), "{f:?} {pdf}");
         }
     }
 

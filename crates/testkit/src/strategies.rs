@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use etendue_bsdf::{
-    BsdfAt, Conductor, Lambert, Masking, MetalFresnel, Mirror, RoughDielectric, SmoothDielectric,
+    BlinnPhong, BsdfAt, Conductor, Lambert, Masking, MetalFresnel, Mirror, OrenNayar, Phong, RoughDielectric,
+    SmoothDielectric,
 };
 use etendue_core::{Frame, Ray, Spectrum, Transform, Vec3, Vec3A};
 use etendue_geometry::{Geometry, Parallelogram, Sphere, TriangleMesh, presets};
@@ -122,6 +123,11 @@ pub fn density(n: usize) -> impl Strategy<Value = Vec<f32>> {
     })
 }
 
+/// Exponents of Phong's lobes, from 1 to 10⁴.
+fn exponent() -> impl Strategy<Value = f32> {
+    (0.0f32..4.0).prop_map(|k| etendue_core::math::pow(10.0, k))
+}
+
 /// Built-in BSDFs over their parameters.
 pub fn bsdf() -> impl Strategy<Value = BsdfAt<'static>> {
     let roughness = || prop_oneof![4 => 0.05f32..1.0, 1 => Just(0.0f32), 1 => Just(1.0f32)];
@@ -135,6 +141,9 @@ pub fn bsdf() -> impl Strategy<Value = BsdfAt<'static>> {
         )),
         (1.01f32..2.5, roughness(), masking())
             .prop_map(|(eta, r, m)| BsdfAt::RoughDielectric(RoughDielectric::new(r, eta).with_masking(m))),
+        (albedo(), roughness()).prop_map(|(a, r)| BsdfAt::OrenNayar(OrenNayar::new(a, r))),
+        (albedo(), albedo(), exponent()).prop_map(|(d, s, n)| BsdfAt::Phong(Phong::new(d, s, n))),
+        (albedo(), albedo(), exponent()).prop_map(|(d, s, n)| BsdfAt::BlinnPhong(BlinnPhong::new(d, s, n))),
     ]
 }
 

@@ -3,8 +3,8 @@
 mod support;
 
 use etendue_bsdf::{
-    Black, Bsdf, BsdfAt, Conductor, Ggx, Lambert, Masking, Meaning, MetalFresnel, Mirror, Principled,
-    RoughDielectric, SmoothDielectric, ThinDielectric,
+    Black, BlinnPhong, Bsdf, BsdfAt, Conductor, Ggx, Lambert, Masking, Meaning, MetalFresnel, Mirror,
+    OrenNayar, Phong, Principled, RoughDielectric, SmoothDielectric, ThinDielectric,
 };
 use etendue_core::Spectrum;
 use etendue_testkit::{check_bsdf, check_bsdf_up_to};
@@ -54,6 +54,18 @@ fn cases() -> Vec<Case<'static>> {
             let wall =
                 ThinDielectric { ggx: Ggx::anisotropic(alpha, alpha), tint, ..ThinDielectric::new(0.0, eta) };
             add(format!("thin dielectric, alpha {alpha}, eta {eta}"), Box::new(wall));
+        }
+    }
+    for r in [0.0, 0.05, 0.3, 1.0] {
+        for (kind, rho) in [("white", Spectrum::ONE), ("coloured", color)] {
+            add(format!("{kind} EON, roughness {r}"), Box::new(OrenNayar::new(rho, r)));
+        }
+    }
+    for n in [1.0, 10.0, 100.0, 1e4] {
+        for (base, lobe) in [(Spectrum::BLACK, Spectrum::ONE), (color, Spectrum::ONE - color)] {
+            let kind = if base.is_black() { "lobe alone" } else { "lobe and base" };
+            add(format!("phong, {kind}, n {n}"), Box::new(Phong::new(base, lobe, n)));
+            add(format!("blinn-phong, {kind}, n {n}"), Box::new(BlinnPhong::new(base, lobe, n)));
         }
     }
     out

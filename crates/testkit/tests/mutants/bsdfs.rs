@@ -1,6 +1,6 @@
 use etendue_bsdf::{
-    Bsdf, BsdfAt, BsdfSample, Conductor, Ggx, Lambert, Lobes, Meaning, Mirror, Mode, Principled,
-    RoughDielectric, SmoothDielectric,
+    BlinnPhong, Bsdf, BsdfAt, BsdfSample, Conductor, Ggx, Lambert, Lobes, Meaning, Mirror, Mode, OrenNayar,
+    Phong, Principled, RoughDielectric, SmoothDielectric,
 };
 use etendue_core::{Spectrum, Vec2, Vec3A, vector};
 use etendue_testkit::check_bsdf;
@@ -148,12 +148,12 @@ impl<B: Bsdf> Bsdf for Mutant<B> {
 }
 
 /// Says the density of another surface, the weight to match.
-struct DensityOf {
-    right: Principled,
-    other: Principled,
+struct DensityOf<B> {
+    right: B,
+    other: B,
 }
 
-impl Bsdf for DensityOf {
+impl<B: Bsdf> Bsdf for DensityOf<B> {
     fn lobes(&self) -> Lobes {
         self.right.lobes()
     }
@@ -192,7 +192,29 @@ pub(crate) fn mutants() -> Vec<Case<'static>> {
     let narrow = Principled { meaning: Meaning::GltfB, ..metal };
     let plastic = Principled::new(Spectrum::rgb(0.8, 0.5, 0.2), 0.0, 0.4);
     let pane = Principled { transmission: 0.5, ..plastic };
+    let clay = OrenNayar::new(Spectrum::rgb(0.9, 0.6, 0.3), 1.0);
+    let (base, lobe) = (Spectrum::gray(0.3), Spectrum::gray(0.6));
+    let (phong, blinn) = (Phong::new(base, lobe, 30.0), BlinnPhong::new(base, lobe, 30.0));
     vec![
+        case("eon: pdf 1 % too large, consistently", clay, Wrong::Pdf(1.01)),
+        case("eon: weight 1 % too large", OrenNayar::new(Spectrum::ONE, 0.5), Wrong::Weight(1.01)),
+        case("eon: uniform part drawn too rarely", clay, Wrong::Lobe(0.3)),
+        case("eon: lopsided", clay, Wrong::Lopsided),
+        Case::new("eon: density of another roughness", move |b| {
+            check_bsdf(&DensityOf { right: clay, other: OrenNayar::new(clay.rho, 0.5) }, b)
+        }),
+        case("phong: pdf 1 % too large, consistently", phong, Wrong::Pdf(1.01)),
+        case("phong: lobe drawn too often", phong, Wrong::Lobe(0.8)),
+        case("phong: no cosine", phong, Wrong::NoCosine),
+        Case::new("phong: density of another exponent", move |b| {
+            check_bsdf(&DensityOf { right: phong, other: Phong::new(base, lobe, 24.0) }, b)
+        }),
+        case("blinn-phong: pdf 1 % too large, consistently", blinn, Wrong::Pdf(1.01)),
+        case("blinn-phong: lobe drawn too often", blinn, Wrong::Lobe(0.8)),
+        case("blinn-phong: no cosine", blinn, Wrong::NoCosine),
+        Case::new("blinn-phong: density of another exponent", move |b| {
+            check_bsdf(&DensityOf { right: blinn, other: BlinnPhong::new(base, lobe, 24.0) }, b)
+        }),
         Case::new("principled: density without the compensation's", move |b| {
             check_bsdf(&DensityOf { right: metal, other: narrow }, b)
         }),
