@@ -28,32 +28,6 @@ impl Conductor {
     pub fn with_masking(self, masking: Masking) -> Self {
         Self { masking, ..self }
     }
-
-    /// From indices at 630, 532 and 465 nm.
-    fn measured(roughness: f32, eta: [f32; 3], k: [f32; 3]) -> Self {
-        Self::new(roughness, MetalFresnel::Index { eta: eta.into(), k: k.into() })
-    }
-
-    /// Gold: Johnson & Christy 1972, "Optical constants of the noble metals", interpolated at 630, 532 and 465 nm.
-    pub fn gold(roughness: f32) -> Self {
-        Self::measured(roughness, [0.1884, 0.5439, 1.3319], [3.4034, 2.2309, 1.8693])
-    }
-
-    /// Silver: Johnson & Christy 1972, interpolated at 630, 532 and 465 nm.
-    pub fn silver(roughness: f32) -> Self {
-        Self::measured(roughness, [0.0569, 0.0540, 0.0469], [4.2543, 3.4290, 2.8028])
-    }
-
-    /// Copper: Johnson & Christy 1972, interpolated at 630, 532 and 465 nm.
-    pub fn copper(roughness: f32) -> Self {
-        Self::measured(roughness, [0.2753, 1.1159, 1.2469], [3.3726, 2.5956, 2.4562])
-    }
-
-    /// Aluminium: Rakić 1995, "Algorithm for the determination of intrinsic optical constants of metal films",
-    /// interpolated at 630, 532 and 465 nm.
-    pub fn aluminium(roughness: f32) -> Self {
-        Self::measured(roughness, [1.4303, 0.9388, 0.6860], [7.5081, 6.4195, 5.6351])
-    }
 }
 
 /// The direction mirrored to the upper side.

@@ -39,6 +39,7 @@ mod dielectric_thin;
 pub mod fresnel;
 mod ggx;
 mod lambert;
+mod metals;
 mod mirror;
 mod oren_nayar;
 mod phong;

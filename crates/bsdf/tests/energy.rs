@@ -199,4 +199,15 @@ fn presets_have_their_colour() {
     assert!(close(silver, [0.9882, 0.9832, 0.9791]), "{silver:?}");
     assert!(close(copper, [0.9153, 0.6020, 0.5499]), "{copper:?}");
     assert!(close(aluminium, [0.9081, 0.9165, 0.9207]), "{aluminium:?}");
+    for (metal, f0) in [
+        (Conductor::chromium(0.0), [0.5532, 0.5565, 0.5584]),
+        (Conductor::iron(0.0), [0.5287, 0.5111, 0.4998]),
+        (Conductor::nickel(0.0), [0.6903, 0.6335, 0.5831]),
+        (Conductor::titanium(0.0), [0.6117, 0.5750, 0.5485]),
+        (Conductor::platinum(0.0), [0.6718, 0.6322, 0.5970]),
+        (Conductor::tungsten(0.0), [0.5142, 0.4934, 0.4750]),
+        (Conductor::brass(0.0), [0.8772, 0.7518, 0.4934]),
+    ] {
+        assert!(close(normal(metal), f0), "{:?} for {f0:?}", normal(metal));
+    }
 }

@@ -14,11 +14,16 @@
 //! assert!(matches!(leaf.bsdf(&at), BsdfAt::Lambert(_)));
 //! ```
 //!
+//! Matte: [`Diffuse`], [`OrenNayar`]; metal: [`Metal`], [`MirrorMaterial`]; clear: [`Glass`], [`RoughGlass`]; glTF's
+//! [`Principled`]; the lobes of older pictures: [`Phong`], [`BlinnPhong`]; black: [`Absorber`]. Around any of them:
+//! [`Cutout`], [`NormalMapped`].
+//!
 //! Limits: one model a material, no layers; bodies absorb, but do not scatter.
 //!
 //! Place in the workspace: above `core`, `geometry`, `bsdf` and `texture`; scenes hold materials, integrators ask them.
 
 mod absorber;
+mod blinn_phong;
 mod cutout;
 mod diffuse;
 mod glass;
@@ -26,10 +31,13 @@ mod material;
 mod metal;
 mod mirror;
 mod normal_map;
+mod oren_nayar;
 mod parameter;
+mod phong;
 mod principled;
 
 pub use absorber::Absorber;
+pub use blinn_phong::BlinnPhong;
 pub use cutout::Cutout;
 pub use diffuse::Diffuse;
 pub use glass::{Glass, RoughGlass};
@@ -37,4 +45,6 @@ pub use material::{AlphaPoint, Material, MediumId};
 pub use metal::{Metal, MetalColor};
 pub use mirror::MirrorMaterial;
 pub use normal_map::NormalMapped;
+pub use oren_nayar::OrenNayar;
+pub use phong::Phong;
 pub use principled::Principled;

@@ -78,6 +78,41 @@ impl Metal {
     pub fn aluminium(roughness: impl Into<ScalarTex>) -> Self {
         Self::like(Conductor::aluminium(0.0), roughness)
     }
+
+    /// Chromium; see [`Conductor::chromium`].
+    pub fn chromium(roughness: impl Into<ScalarTex>) -> Self {
+        Self::like(Conductor::chromium(0.0), roughness)
+    }
+
+    /// Iron; see [`Conductor::iron`].
+    pub fn iron(roughness: impl Into<ScalarTex>) -> Self {
+        Self::like(Conductor::iron(0.0), roughness)
+    }
+
+    /// Nickel; see [`Conductor::nickel`].
+    pub fn nickel(roughness: impl Into<ScalarTex>) -> Self {
+        Self::like(Conductor::nickel(0.0), roughness)
+    }
+
+    /// Titanium; see [`Conductor::titanium`].
+    pub fn titanium(roughness: impl Into<ScalarTex>) -> Self {
+        Self::like(Conductor::titanium(0.0), roughness)
+    }
+
+    /// Platinum; see [`Conductor::platinum`].
+    pub fn platinum(roughness: impl Into<ScalarTex>) -> Self {
+        Self::like(Conductor::platinum(0.0), roughness)
+    }
+
+    /// Tungsten; see [`Conductor::tungsten`].
+    pub fn tungsten(roughness: impl Into<ScalarTex>) -> Self {
+        Self::like(Conductor::tungsten(0.0), roughness)
+    }
+
+    /// Brass; see [`Conductor::brass`].
+    pub fn brass(roughness: impl Into<ScalarTex>) -> Self {
+        Self::like(Conductor::brass(0.0), roughness)
+    }
 }
 
 fn alpha(roughness: f32) -> f32 {

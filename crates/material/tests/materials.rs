@@ -7,8 +7,8 @@ use etendue_bsdf::{Bsdf, BsdfAt, BsdfSample, Lobes, Meaning, Mode};
 use etendue_core::{Fingerprint, Needs, Spectrum, Vec2, Vec3A, Vec4};
 use etendue_geometry::Surface;
 use etendue_material::{
-    Absorber, AlphaPoint, Cutout, Diffuse, Glass, Material, Metal, MirrorMaterial, NormalMapped, Principled,
-    RoughGlass,
+    Absorber, AlphaPoint, BlinnPhong, Cutout, Diffuse, Glass, Material, Metal, MirrorMaterial, NormalMapped,
+    OrenNayar, Phong, Principled, RoughGlass,
 };
 use etendue_texture::{Channel, Encoding, ImageTexture, ImageUse, ScalarTex, Tex};
 
@@ -62,6 +62,22 @@ fn needs_say_what_is_used() {
         (Box::new(NormalMapped::new(Diffuse::new(white), image())), {
             Needs::TEXTURES | Needs::TANGENTS | Needs::NORMAL_MAPS
         }),
+        (Box::new(OrenNayar::new(white, 0.5)), Needs::empty()),
+        (Box::new(OrenNayar::new(white, textured())), Needs::TEXTURES),
+        (Box::new(OrenNayar::new(Tex::from(image()), 0.5)), Needs::TEXTURES),
+        (Box::new(OrenNayar { vertex_color: true, ..OrenNayar::new(white, 0.5) }), Needs::VERTEX_COLORS),
+        (Box::new(Phong::new(white, white, 10.0)), Needs::empty()),
+        (Box::new(Phong::new(white, white, textured().scaled(100.0))), Needs::TEXTURES),
+        (Box::new(Phong::new(white, Tex::from(image()), 10.0)), Needs::TEXTURES),
+        (Box::new(Phong { vertex_color: true, ..Phong::new(white, ink, 10.0) }), Needs::VERTEX_COLORS),
+        (Box::new(BlinnPhong::new(white, white, 10.0)), Needs::empty()),
+        (Box::new(BlinnPhong::new(Tex::from(image()), white, 10.0)), Needs::TEXTURES),
+        (
+            Box::new(BlinnPhong { vertex_color: true, ..BlinnPhong::new(white, ink, 10.0) }),
+            Needs::VERTEX_COLORS,
+        ),
+        (Box::new(Metal::brass(0.2)), Needs::empty()),
+        (Box::new(Metal::iron(0.0)), Needs::DELTA),
         (Box::new(plain(0.0, 0.5)), Needs::empty()),
         (Box::new(plain(0.0, 0.0)), Needs::DELTA),
         (Box::new(Principled { meaning: Meaning::GltfB, ..plain(0.0, 0.0) }), Needs::empty()),
@@ -114,6 +130,45 @@ fn reflectances_are_clamped() {
     let tinted = Diffuse { vertex_color: true, ..Diffuse::new(Tex::gray(0.8)) };
     let BsdfAt::Lambert(b) = tinted.bsdf(&at) else { panic!("not Lambert") };
     assert_eq!(b.albedo, Spectrum::rgb(0.4, 0.8, 1.0));
+}
+
+/// Parameters are looked up at the point, held in range, and tinted by the vertex colour where asked for.
+#[test]
+fn lobes_get_their_parameters() {
+    let mut at = surface();
+    at.uv[0] = Vec2::new(0.75, 0.5);
+    let green = Spectrum::rgb(0.0, 1.0, 0.0);
+    let base = Tex::from(image()).scaled(Spectrum::gray(0.5));
+    let phong =
+        Phong { vertex_color: true, ..Phong::new(base.clone(), Tex::gray(0.75), textured().scaled(40.0)) };
+    let BsdfAt::Phong(b) = phong.bsdf(&at) else { panic!("not Phong") };
+    assert_eq!((b.diffuse(), b.exponent()), (green * 0.5, 40.0));
+    assert_eq!(b.specular(), Spectrum::rgb(0.75, 0.5, 0.75), "no more than the base leaves");
+    let blinn = BlinnPhong::new(base.clone(), Tex::gray(f32::NAN), f32::NAN);
+    let BsdfAt::BlinnPhong(b) = blinn.bsdf(&at) else { panic!("not Blinn-Phong") };
+    assert_eq!((b.diffuse(), b.specular(), b.exponent()), (green * 0.5, Spectrum::BLACK, 0.0));
+    let clay = OrenNayar { vertex_color: true, ..OrenNayar::new(Tex::gray(0.8), textured().scaled(3.0)) };
+    let BsdfAt::OrenNayar(b) = clay.bsdf(&at) else { panic!("not Oren-Nayar") };
+    assert_eq!((b.rho, b.roughness()), (Spectrum::rgb(0.4, 0.8, 1.0), 1.0));
+    assert_eq!(at.fetches.get(), 4, "one look-up for each image");
+}
+
+#[test]
+fn metals_have_their_conductor() {
+    use etendue_bsdf::Conductor;
+    let pairs = [
+        (Metal::chromium(0.3), Conductor::chromium(0.3)),
+        (Metal::iron(0.3), Conductor::iron(0.3)),
+        (Metal::nickel(0.3), Conductor::nickel(0.3)),
+        (Metal::titanium(0.3), Conductor::titanium(0.3)),
+        (Metal::platinum(0.3), Conductor::platinum(0.3)),
+        (Metal::tungsten(0.3), Conductor::tungsten(0.3)),
+        (Metal::brass(0.3), Conductor::brass(0.3)),
+    ];
+    for (metal, conductor) in pairs {
+        let BsdfAt::Conductor(b) = metal.bsdf(&surface()) else { panic!("not a conductor") };
+        assert_eq!(b, conductor);
+    }
 }
 
 #[test]
