@@ -10,7 +10,7 @@ use etendue_material::{
     Absorber, AlphaPoint, BlinnPhong, Cutout, Diffuse, Glass, Material, Metal, MirrorMaterial, NormalMapped,
     OrenNayar, Phong, Principled, RoughGlass,
 };
-use etendue_texture::{Channel, Encoding, ImageTexture, ImageUse, ScalarTex, Tex};
+use etendue_texture::{Channel, Checker, Encoding, ImageTexture, ImageUse, Noise, ScalarTex, Tex, TexSpace};
 
 fn surface() -> Surface {
     let mut at = Surface::new(Vec3A::ZERO, Vec3A::ZERO, Vec3A::Y);
@@ -27,6 +27,11 @@ fn image() -> ImageUse {
 
 fn textured() -> ScalarTex {
     ScalarTex::image(image(), Channel::A)
+}
+
+/// A pattern between two numbers.
+fn grain(low: f32, high: f32) -> Noise {
+    Noise::fractal(TexSpace::uv(9.0), 3, Spectrum::gray(low), Spectrum::gray(high))
 }
 
 #[test]
@@ -78,6 +83,9 @@ fn needs_say_what_is_used() {
         ),
         (Box::new(Metal::brass(0.2)), Needs::empty()),
         (Box::new(Metal::iron(0.0)), Needs::DELTA),
+        (Box::new(Diffuse::new(Checker::new(TexSpace::uv(4.0), white, ink))), Needs::TEXTURES),
+        (Box::new(Metal::silver(grain(0.3, 0.6))), Needs::TEXTURES),
+        (Box::new(Metal::silver(grain(0.0, 0.6))), Needs::TEXTURES | Needs::DELTA),
         (Box::new(plain(0.0, 0.5)), Needs::empty()),
         (Box::new(plain(0.0, 0.0)), Needs::DELTA),
         (Box::new(Principled { meaning: Meaning::GltfB, ..plain(0.0, 0.0) }), Needs::empty()),

@@ -222,6 +222,10 @@ impl Texture for ImageTexture {
         color(self.max)
     }
 
+    fn min(&self) -> Spectrum {
+        color(self.min)
+    }
+
     fn fingerprint(&self, f: &mut Fingerprint) {
         f.tag("image");
         for v in [self.width, self.height, self.channels] {

@@ -1,5 +1,5 @@
-//! Colours and numbers that vary over a surface: the [`Texture`] trait, [`ImageTexture`], and [`Tex`] and [`ScalarTex`],
-//! the by-value forms in which materials and lights hold a parameter.
+//! Colours and numbers that vary over a surface: the [`Texture`] trait, [`ImageTexture`], [`Checker`] and [`Noise`], and
+//! [`Tex`] and [`ScalarTex`], the by-value forms in which materials and lights hold a parameter.
 //!
 //! ```
 //! use std::cell::Cell;
@@ -17,23 +17,30 @@
 //! # Ok::<(), etendue_texture::TextureError>(())
 //! ```
 //!
-//! Limits: bilinear or nearest filtering without mip levels; images at most 65,536 texels a side.
+//! Limits: bilinear or nearest filtering without mip levels, procedural patterns not filtered at all; images at most 65,536 texels a side.
 //!
 //! Place in the workspace: above `core` and `geometry`; `material` and `light` read parameters through it.
 
+mod checker;
 mod error;
+mod gradient;
 mod image;
 mod lookup;
+mod noise;
 mod scalar;
+mod space;
 mod tex;
 mod texels;
 mod texture;
 mod uv_transform;
 
+pub use checker::Checker;
 pub use error::TextureError;
 pub use image::{Channel, ImageTexture};
 pub use lookup::{Filter, Wrap};
+pub use noise::{Noise, NoiseKind};
 pub use scalar::ScalarTex;
+pub use space::TexSpace;
 pub use tex::{ImageUse, Tex};
 pub use texels::Encoding;
 pub use texture::{TexPoint, Texture};

@@ -33,7 +33,7 @@ pub(crate) struct Pair {
 
 /// `⌊x⌋` without a library call; saturates, and NaN is 0.
 #[inline]
-fn floor(x: f32) -> i32 {
+pub(crate) fn floor(x: f32) -> i32 {
     let i = x as i32;
     if (i as f32) > x { i.saturating_sub(1) } else { i }
 }

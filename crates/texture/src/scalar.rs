@@ -18,7 +18,7 @@ pub enum ScalarTex {
         /// Factor, not negative.
         scale: f32,
     },
-    /// One channel of a user's texture, which has no alpha (it reads as 1).
+    /// One channel of a procedural texture or a user's, which has no alpha (it reads as 1).
     Open {
         /// The texture.
         tex: Arc<dyn Texture>,
@@ -82,12 +82,12 @@ impl ScalarTex {
         }
     }
 
-    /// A bound that no value falls below; 0 where a user's texture does not tell.
+    /// A bound that no value falls below.
     pub fn min(&self) -> f32 {
         match self {
             Self::Constant(v) => *v,
             Self::Image { image, channel, scale } => image.image.min4()[*channel as usize] * scale,
-            Self::Open { .. } => 0.0,
+            Self::Open { tex, channel, scale } => channel_of(tex.min(), *channel) * scale,
         }
     }
 

@@ -47,7 +47,7 @@ pub enum Tex {
     Constant(Spectrum),
     /// An image.
     Image(ImageUse),
-    /// A user's texture.
+    /// A procedural texture, or a user's.
     Open(Arc<dyn Texture>),
 }
 
@@ -129,8 +129,16 @@ impl Texture for Tex {
     fn max(&self) -> Spectrum {
         match self {
             Self::Constant(c) => *c,
-            Self::Image(i) => scaled_max(color(i.image.min4()), i.image.max(), i.scale),
+            Self::Image(i) => scaled_max(i.image.min(), i.image.max(), i.scale),
             Self::Open(t) => t.max(),
+        }
+    }
+
+    fn min(&self) -> Spectrum {
+        match self {
+            Self::Constant(c) => *c,
+            Self::Image(i) => -scaled_max(-i.image.max(), -i.image.min(), i.scale),
+            Self::Open(t) => t.min(),
         }
     }
 
@@ -181,6 +189,10 @@ impl Texture for Scaled {
 
     fn max(&self) -> Spectrum {
         self.tex.max() * self.factor
+    }
+
+    fn min(&self) -> Spectrum {
+        self.tex.min() * self.factor
     }
 
     fn fingerprint(&self, f: &mut Fingerprint) {

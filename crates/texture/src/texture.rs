@@ -38,6 +38,11 @@ pub trait Texture: Send + Sync {
     /// A bound that no value exceeds, per channel, so that a light is never dropped by a coarse power estimate.
     fn max(&self) -> Spectrum;
 
+    /// A bound that no value falls below, per channel; 0 where a texture does not tell.
+    fn min(&self) -> Spectrum {
+        Spectrum::BLACK
+    }
+
     /// What decides the texture, for comparing scenes.
     fn fingerprint(&self, f: &mut Fingerprint) {
         f.opaque();
