@@ -16,7 +16,7 @@
 //!
 //! Matte: [`Diffuse`], [`OrenNayar`]; metal: [`Metal`], [`MirrorMaterial`]; clear: [`Glass`], [`RoughGlass`]; glTF's
 //! [`Principled`]; the lobes of older pictures: [`Phong`], [`BlinnPhong`]; black: [`Absorber`]. Around any of them:
-//! [`Cutout`], [`NormalMapped`].
+//! [`Cutout`], [`NormalMapped`], [`BumpMapped`].
 //!
 //! Limits: one model a material, no layers; bodies absorb, but do not scatter.
 //!
@@ -24,6 +24,7 @@
 
 mod absorber;
 mod blinn_phong;
+mod bump_map;
 mod cutout;
 mod diffuse;
 mod glass;
@@ -38,6 +39,7 @@ mod principled;
 
 pub use absorber::Absorber;
 pub use blinn_phong::BlinnPhong;
+pub use bump_map::BumpMapped;
 pub use cutout::Cutout;
 pub use diffuse::Diffuse;
 pub use glass::{Glass, RoughGlass};
