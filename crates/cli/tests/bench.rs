@@ -46,6 +46,8 @@ fn a_bench_measures_every_combination_and_the_first_twice() {
         let parts = ["variance", "bias_squared"].map(|k| number(&p["relmse"][k]["value"]));
         let residual = number(&report["scenes"][0]["reference"]["relmse"]);
         let whole = number(&p["relmse"]["measured"]["value"]);
+        let each = p["relmse"]["of_each_run"].as_array().expect("a list");
+        assert!((each.iter().map(number).sum::<f64>() / 3.0 / whole - 1.0).abs() < 1e-12);
         assert!((parts[0] + parts[1] + residual - whole).abs() < 1e-12 * whole);
         assert!(c["points"][0]["relmse"]["measured"]["interval"].is_array());
     }

@@ -206,6 +206,11 @@ impl Point {
         jackknife(self.runs(), |kept| self.raw(metric, kept))
     }
 
+    /// The error of each run, as it is measured against the reference; empty without one.
+    pub fn errors_of_runs(&self, metric: Metric) -> Vec<f64> {
+        (0..self.runs()).filter_map(|k| self.raw(metric, &[k])).collect()
+    }
+
     /// The mean error of one run against the truth: without the reference's own part. Without a reference it is the
     /// variance. `None` where the reference is worse than the picture, or a single run has no reference.
     pub fn corrected(&self, metric: Metric) -> Option<Measured> {
