@@ -114,8 +114,7 @@ fn a_curve_is_written_while_rendering() {
         let rows: Vec<Vec<&str>> = text.lines().map(|l| l.split(',').collect()).collect();
         assert_eq!(rows[0][0], "spp");
         let spp: Vec<&str> = rows[1..].iter().map(|r| r[0]).collect();
-        assert_eq!(spp.iter().filter(|s| ["1", "2", "4", "8", "16", "24"].contains(s)).count(), spp.len());
-        assert_eq!((spp[0], *spp.last().expect("rows")), ("1", "24"));
+        assert_eq!(spp, ["1", "2", "4", "8", "16", "24"], "{out}");
         let column = |name| rows[0].iter().position(|c| *c == name).expect("a column");
         let at_end: f64 = rows[rows.len() - 1][column("relmse")].parse().expect("a number");
         assert!((at_end / number(&b.json("c.json")["relmse"]) - 1.0).abs() < 1e-9);
@@ -188,6 +187,47 @@ fn ctrl_c_keeps_what_was_measured() {
     assert_eq!(out.status.code(), Some(130), "{}", String::from_utf8_lossy(&out.stderr));
     let report = b.json("b.json");
     assert!(number(&last(&contenders(&report)[0])["spp"]) >= 1.0);
+}
+
+#[test]
+fn what_one_scene_told_is_not_lost_with_the_next() {
+    let b = Bench::new("second");
+    let e = b.bad("bench a.obj nix.obj --size 4x4 --spp 2 --threads 1 --json b.json --html b.html", 1);
+    assert!(e.contains("nix.obj"), "{e}");
+    let report = b.json("b.json");
+    assert_eq!(
+        (report["scenes"].as_array().map(Vec::len), last(&contenders(&report)[0])["spp"].as_u64()),
+        (Some(1), Some(2))
+    );
+    let page = String::from_utf8(b.bytes("b.html")).expect("UTF-8");
+    assert!(page.contains("1 threads") && page.contains("<dt>threads</dt><dd>1</dd>"));
+}
+
+/// The first of a reference's independent parts is what a render of its seed draws.
+#[test]
+fn a_render_is_not_a_part_of_its_reference() {
+    let b = Bench::new("apart");
+    b.good("reference a.obj --size 24x20 --spp 64 -o ref.film");
+    b.good("bench a.obj --reference ref.film --spp 16 --runs 6 --json all.json");
+    b.good("bench a.obj --reference ref.film --spp 16 --runs 1 --json own.json");
+    let relmse = |name: &str| number(&last(&contenders(&b.json(name))[0])["relmse"]["measured"]["value"]);
+    let (own, all) = (relmse("own.json"), relmse("all.json"));
+    assert!((0.7..1.4).contains(&(own / all)), "seed 0 is off by {own}, six seeds by {all}");
+}
+
+#[test]
+fn a_stopped_reference_tells_its_error() {
+    let b = Bench::new("short");
+    b.write("r.json", "{\"residual_relmse\": 1e-9, \"of\": \"an earlier one\"}");
+    let child = b.spawn("reference builtin:cornell --size 32x32 --time 1h -o r.exr");
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    signal(&child, "INT");
+    let out = child.wait_with_output().expect("the program ends");
+    assert_eq!(out.status.code(), Some(130), "{}", String::from_utf8_lossy(&out.stderr));
+    let facts = b.json("r.json");
+    assert!(facts["of"].is_null() && number(&facts["residual_relmse"]) > 1e-9 && b.path("r.exr").is_file());
+    let e = b.bad("reference a.obj --size 4x4 --spp 4 -o s.exr --json s.json", 2);
+    assert!(e.contains("s.json"), "{e}");
 }
 
 #[test]

@@ -67,6 +67,8 @@ pub struct Point {
     pub costs: Vec<Costs>,
     /// Pixels that were left out because the reference or one of the runs was no number there.
     pub not_finite: u64,
+    /// Pixels that were not.
+    compared: usize,
     relative: Gram,
     absolute: Gram,
     /// Trimmed relMSE of each run.
@@ -142,7 +144,8 @@ impl Point {
             errors.iter_mut().zip(error).for_each(|(all, e)| all.push(e));
             variances.iter_mut().zip(variance).for_each(|(all, v)| all.push(v));
         }
-        let values = 3.0 * (pixels as f64 - not_finite as f64).max(1.0);
+        let compared = errors.first().map_or(0, Vec::len);
+        let values = 3.0 * compared.max(1) as f64;
         relative.divide(values);
         absolute.divide(values);
         let trimmed = errors.iter_mut().map(|e| trimmed_mean(e)).collect();
@@ -150,7 +153,7 @@ impl Point {
         let trimmed_variance =
             variances.iter_mut().enumerate().map(|(i, v)| enough(i).then(|| trimmed_mean(v))).collect();
         let residual = reference.map(|r| r.residual);
-        Self { spp, costs, not_finite, relative, absolute, trimmed, trimmed_variance, residual }
+        Self { spp, costs, not_finite, compared, relative, absolute, trimmed, trimmed_variance, residual }
     }
 
     /// Independent runs.
@@ -159,7 +162,7 @@ impl Point {
     }
 
     fn raw(&self, metric: Metric, kept: &[usize]) -> Option<f64> {
-        self.residual?;
+        self.residual.filter(|_| self.compared > 0)?;
         match metric {
             Metric::Relative => self.relative.square(kept),
             Metric::Absolute => self.absolute.square(kept),
@@ -169,12 +172,17 @@ impl Point {
     }
 
     fn variance_of(&self, metric: Metric, kept: &[usize]) -> Option<f64> {
+        if self.compared == 0 {
+            return None;
+        }
         match metric {
             Metric::Relative => self.relative.variance(kept),
             Metric::Absolute => self.absolute.variance(kept),
             Metric::Trimmed => {
-                let left_out = (0..self.runs()).find(|k| !kept.contains(k));
-                *self.trimmed_variance.get(left_out.map_or(0, |k| k + 1))?
+                // Known of all runs, and with one of them left out.
+                let mut left_out = (0..self.runs()).filter(|k| !kept.contains(k));
+                let place = left_out.next().map_or(0, |k| k + 1);
+                left_out.next().is_none().then(|| self.trimmed_variance.get(place).copied().flatten())?
             }
         }
     }
@@ -233,14 +241,16 @@ impl Point {
 
     /// Square of the bias: the part of the error that neither variance nor the reference's own error explains. Zero
     /// within its interval for an unbiased estimator; scatters around zero, so that it can be negative. `None` without
-    /// a reference or below two runs.
+    /// a reference or below two runs, and trimmed: the pixels where a run is worst are others than those where runs
+    /// differ most, and an error without the ones is not the sum of parts without the others.
     pub fn bias_squared(&self, metric: Metric) -> Option<Measured> {
-        let residual = self.residual(metric)?;
-        jackknife(self.runs(), |kept| match metric {
-            Metric::Relative => Some(self.relative.common(kept)? - residual),
-            Metric::Absolute => Some(self.absolute.common(kept)? - residual),
-            Metric::Trimmed => Some(self.raw(metric, kept)? - self.variance_of(metric, kept)? - residual),
-        })
+        let residual = self.residual(metric).filter(|_| self.compared > 0)?;
+        let gram = match metric {
+            Metric::Relative => &self.relative,
+            Metric::Absolute => &self.absolute,
+            Metric::Trimmed => return None,
+        };
+        jackknife(self.runs(), |kept| Some(gram.common(kept)? - residual))
     }
 
     /// Mean cost of one run; `None` where it was not measured.

@@ -38,26 +38,25 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
         say("note: 'stratified' begins anew at every number of samples");
     }
     let interrupt = Interrupt::listen();
-    let results = in_pool(args.method.threads, || {
-        let mut results = Vec::new();
+    let mut results = Vec::new();
+    let done = in_pool(args.method.threads, || {
         for scene in &args.scenes {
             let result = measure(args, scene, &interrupt)?;
-            for line in table::lines(&result) {
-                print(&line)?;
-            }
-            print("")?;
+            let lines = table::lines(&result);
             results.push(result);
+            lines.iter().try_for_each(|line| print(line))?;
+            print("")?;
             if interrupt.requested() {
                 break;
             }
         }
-        Ok(results)
-    })?;
-    let mut written = Vec::new();
-    if let Some(path) = &args.html {
-        write_atomically(path, page::html(&results, &command())?.as_bytes())?;
-        written.push(path.display().to_string());
+        Ok(())
+    });
+    // What a scene took hours to tell is not lost with the one after it.
+    if results.is_empty() {
+        return done;
     }
+    let mut written = Vec::new();
     if let Some(path) = &args.json {
         let scenes: Vec<_> = results.iter().map(json::value).collect();
         let report = json!({
@@ -68,11 +67,15 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
         write_json(path, &report)?;
         written.push(path.display().to_string());
     }
+    if let Some(path) = &args.html {
+        write_atomically(path, page::html(&results, &command())?.as_bytes())?;
+        written.push(path.display().to_string());
+    }
     if interrupt.requested() {
         let files = if written.is_empty() { "nothing".into() } else { written.join(", ") };
         return Err(CliError::Interrupted(format!("written with what had been measured: {files}")));
     }
-    Ok(())
+    done
 }
 
 /// The command line as it was given.
