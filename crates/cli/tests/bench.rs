@@ -21,8 +21,7 @@ fn number(v: &Value) -> f64 {
 fn a_bench_measures_every_combination_and_the_first_twice() {
     let b = Bench::new("combinations");
     b.good("reference a.obj --size 12x10 --spp 64 -o ref.film");
-    let flags =
-        "--integrator path,path:light=none --sampler sobol,stratified --reference ref.film --spp 8 --runs 3";
+    let flags = "--integrator path,path:light=none,path --sampler sobol,stratified --reference ref.film --spp 8 --runs 3";
     let [out, _] = b.good(&format!("bench a.obj {flags} --json b.json --html b.html"));
     let report = b.json("b.json");
     let names: Vec<&str> = contenders(&report).iter().filter_map(|c| c["name"].as_str()).collect();
@@ -178,13 +177,15 @@ fn without_a_reference_variance_is_measured() {
 #[test]
 fn ctrl_c_keeps_what_was_measured() {
     let b = Bench::new("stopped");
-    let child = b.spawn("bench builtin:cornell --size 64x64 --time 1h --json b.json");
+    let child = b.spawn("bench builtin:cornell --size 64x64 --time 1h --json b.json --html b.html");
     std::thread::sleep(std::time::Duration::from_millis(1500));
     signal(&child, "INT");
     let out = child.wait_with_output().expect("the program ends");
     assert_eq!(out.status.code(), Some(130), "{}", String::from_utf8_lossy(&out.stderr));
     let report = b.json("b.json");
     assert!(number(&last(&contenders(&report)[0])["spp"]) >= 1.0);
+    let page = String::from_utf8(b.bytes("b.html")).expect("UTF-8");
+    assert!(page.contains("<svg") && !page.contains("data:image"), "a picture of half a pass is no point's");
 }
 
 #[test]

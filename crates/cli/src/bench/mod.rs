@@ -137,7 +137,9 @@ fn measure(args: &BenchArgs, path: &Path, interrupt: &Interrupt) -> Result<Scene
     let (wall, cpu) = (SystemClock::default(), CpuClock::start());
     let clocks = Clocks { wall: &wall, cpu: cpu.as_ref().map(|c| c as _) };
     let curves = race(&mut field, reference.as_ref().map(|(_, r)| r), &budget, clocks, interrupt)?;
-    let pictures = field.iter().map(|c| c.runs.first().map_or_else(Vec::new, |r| r.picture())).collect();
+    // A run that was stopped has more samples than its last point, and not in every pixel.
+    let whole = field.iter().filter(|_| !interrupt.requested());
+    let pictures = whole.map(|c| c.runs.first().map_or_else(Vec::new, |r| r.picture())).collect();
     Ok(SceneResult {
         name: built.prepared.scene_name.clone(),
         size: size.to_array(),

@@ -10,7 +10,7 @@ pub(super) struct SceneResult {
     pub(super) curves: Vec<Curve>,
     /// Biased options of each contender.
     pub(super) bias: Vec<Vec<String>>,
-    /// The picture of each contender's first run.
+    /// The picture of each contender's first run; none where the measurement was stopped.
     pub(super) pictures: Vec<Vec<[f32; 3]>>,
     pub(super) warnings: Vec<String>,
 }
