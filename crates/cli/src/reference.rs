@@ -23,7 +23,7 @@ const RESIDUAL: &str = "residual_relmse";
 pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     let output = with_film(args);
     let besides: Vec<PathBuf> =
-        output.iter().filter(|p| is_linear(p)).map(|p| p.with_extension("json")).collect();
+        output.iter().filter(|p| is_exact(p)).map(|p| p.with_extension("json")).collect();
     for path in &besides {
         check_place(path)?;
         refuse_others(path)?;
@@ -85,9 +85,9 @@ fn with_film(args: &ReferenceArgs) -> Vec<PathBuf> {
     output
 }
 
-/// Whether a picture can be a reference again: those of 8 bits cannot.
-fn is_linear(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr") || e.eq_ignore_ascii_case("hdr"))
+/// Whether a picture can be a reference again: those of 8 bits cannot, and the rounding of .hdr would pass for bias.
+fn is_exact(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"))
 }
 
 /// A file that has the name by chance is not overwritten.

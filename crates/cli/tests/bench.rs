@@ -146,8 +146,10 @@ fn what_cannot_be_measured_is_refused_with_the_cure() {
         ("bench builtin:cornell --camera 0", "one camera"),
         ("bench a.obj --integrator path:light=maybe", "balance"),
         ("bench a.obj --integrator path:speed=9", "depth=N"),
-        ("bench a.obj --runs 0", "1..=1000"),
+        ("bench a.obj --runs 0", "1..=100"),
         ("bench a.obj --html nowhere/b.html", "create it first"),
+        ("bench a.obj --html b --json b", "named twice"),
+        ("render a.obj --json x.exr -o x.exr", "named twice"),
         ("reference a.obj", "--time"),
         ("reference a.obj --size 4x4 --spp 1 -o one.film", "at least 4"),
     ] {
@@ -160,6 +162,12 @@ fn what_cannot_be_measured_is_refused_with_the_cure() {
     b.write("four.json", "{\"residual_relmse\": -1}");
     let e = b.bad("bench a.obj --reference four.exr", 2);
     assert!(e.contains("four.json") && e.contains("residual_relmse"), "{e}");
+    b.write(
+        "four.json",
+        "{\"residual_relmse\":0,\"residual_relmse_trim\":0,\"residual_rmse\":0,\"mean\":[9,9,9]}",
+    );
+    let e = b.bad("bench a.obj --reference four.exr", 2);
+    assert!(e.contains("another picture"), "{e}");
     let [_, warned] = b.good("bench a.obj --reference a.film --spp 1 --runs 1");
     assert!(warned.contains("one replicate"), "{warned}");
 }

@@ -19,7 +19,7 @@ use serde_json::json;
 
 use crate::args::{BenchArgs, SamplerName};
 use crate::error::CliError;
-use crate::outputs::{check_place, write_json};
+use crate::outputs::{check_distinct, check_place, write_json};
 use crate::session::{CpuClock, Interrupt, in_pool, print, say};
 use crate::{picture, prepare, render};
 use summary::SceneResult;
@@ -30,6 +30,7 @@ const SPP: u64 = 64;
 const UNLIMITED: u64 = 1 << 30;
 
 pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
+    check_distinct(args.html.iter().chain(&args.json))?;
     for path in args.html.iter().chain(&args.json) {
         check_place(path)?;
     }
@@ -78,10 +79,18 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
     done
 }
 
-/// The command line as it was given.
+/// The command line as it was given, for a shell to read again.
 fn command() -> String {
-    let words = std::env::args_os().skip(1).map(|w| w.to_string_lossy().into_owned());
+    let words = std::env::args_os().skip(1).map(|w| quoted(&w.to_string_lossy()));
     std::iter::once("etendue".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 /// What is right for a scene: the file that was named, or the one in the folder that is called like the scene.
@@ -151,4 +160,18 @@ fn measure(args: &BenchArgs, path: &Path, interrupt: &Interrupt) -> Result<Scene
         pictures,
         warnings,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn commands_can_be_given_again() {
+        for (word, want) in
+            [("a/b.glb", "a/b.glb"), ("my box.glb", "'my box.glb'"), ("", "''"), ("it's", "'it'\\''s'")]
+        {
+            assert_eq!(quoted(word), want);
+        }
+    }
 }

@@ -40,6 +40,7 @@ pub(crate) fn render(args: &RenderArgs) -> Result<Rendered, CliError> {
         return Err(CliError::Usage("name a scene".into()));
     };
     let outputs = outputs::check(&wanted(args, scene))?;
+    outputs::check_distinct(args.output.iter().chain(&args.json).chain(&args.curve))?;
     for path in args.json.iter().chain(&args.curve) {
         outputs::check_place(path)?;
     }
