@@ -15,6 +15,7 @@ use etendue::scene::presets;
 use study::{Outcome, Study, View};
 
 const NAMES: [&str; 5] = ["samples", "stratified", "direct", "mis", "bounces"];
+
 fn main() -> Outcome<()> {
     let (mut size, mut spp, mut out, mut names) = (128, 2048, PathBuf::from("."), Vec::new());
     let mut args = std::env::args().skip(1);

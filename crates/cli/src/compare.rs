@@ -6,11 +6,12 @@ use serde_json::json;
 
 use crate::args::CompareArgs;
 use crate::error::CliError;
-use crate::outputs::{check_place, write_json};
+use crate::outputs::{check_distinct, check_place, write_json};
 use crate::picture;
 use crate::session::{print, say};
 
 pub(crate) fn run(args: &CompareArgs) -> Result<(), CliError> {
+    check_distinct(args.json.iter().chain(&args.flip))?;
     for path in args.json.iter().chain(&args.flip) {
         check_place(path)?;
     }

@@ -39,6 +39,7 @@ pub(crate) struct Written<'a> {
 /// The files to be written, each of a known kind and in a folder that takes files: what can go wrong later is known
 /// before the work begins.
 pub(crate) fn check(paths: &[PathBuf]) -> Result<Vec<Output>, CliError> {
+    check_distinct(paths)?;
     let mut out: Vec<Output> = Vec::new();
     for path in paths {
         let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
@@ -52,13 +53,22 @@ pub(crate) fn check(paths: &[PathBuf]) -> Result<Vec<Output>, CliError> {
                 return Err(CliError::Usage(format!("output '{}': {help}", path.display())));
             }
         };
-        if out.iter().any(|o| o.path == *path) {
-            return Err(CliError::Usage(format!("output '{}' is named twice; name it once", path.display())));
-        }
         check_place(path)?;
         out.push(Output { path: path.clone(), kind });
     }
     Ok(out)
+}
+
+/// Refuses two outputs of one name: the later would be all that is left.
+pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), CliError> {
+    let mut seen: Vec<&PathBuf> = Vec::new();
+    for path in paths {
+        if seen.contains(&path) {
+            return Err(CliError::Usage(format!("output '{}' is named twice; name it once", path.display())));
+        }
+        seen.push(path);
+    }
+    Ok(())
 }
 
 /// Whether a file can be written there.

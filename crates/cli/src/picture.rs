@@ -32,6 +32,18 @@ pub(crate) fn read(path: &Path) -> Result<Pixels, CliError> {
 /// What is right, and how wrong it may be: a film tells by its replicates, a picture by the file beside it that
 /// `etendue reference` writes.
 pub(crate) fn reference(path: &Path) -> Result<Reference, CliError> {
+    let reference = read_reference(path)?;
+    let bad = reference.rgb.iter().filter(|p| p.iter().any(|c| !c.is_finite())).count();
+    if bad == reference.rgb.len() {
+        return Err(CliError::Usage(format!("'{}' has no pixel that is a number", path.display())));
+    }
+    if bad > 0 {
+        say(&format!("warning: {bad} pixels of '{}' are no numbers; they are left out", path.display()));
+    }
+    Ok(reference)
+}
+
+fn read_reference(path: &Path) -> Result<Reference, CliError> {
     let name = path.display();
     if is_film(path) {
         let film = read_film(path, &film_limits())?;
@@ -63,7 +75,23 @@ pub(crate) fn reference(path: &Path) -> Result<Reference, CliError> {
         trimmed: number("residual_relmse_trim")?,
         absolute: number("residual_rmse")?.powi(2),
     };
+    if let Some(mean) = facts.get("mean").and_then(|m| serde_json::from_value::<[f64; 3]>(m.clone()).ok())
+        && !is_mean_of(mean, &rgb)
+    {
+        return Err(refuse(format!(
+            "its 'mean' is that of another picture than '{name}'; remove or renew it"
+        )));
+    }
     Ok(Reference { size, rgb, residual })
+}
+
+/// Up to the rounding of 16-bit pixels.
+fn is_mean_of(mean: [f64; 3], rgb: &[[f32; 3]]) -> bool {
+    (0..3).all(|c| {
+        let own = rgb.iter().map(|p| f64::from(p[c])).sum::<f64>() / rgb.len().max(1) as f64;
+        // A picture with pixels that are no numbers has no mean to compare.
+        !own.is_finite() || (own - mean[c]).abs() <= 1e-3 * own.abs().max(mean[c].abs())
+    })
 }
 
 /// Whether a picture of this size can be measured against the reference.

@@ -90,7 +90,6 @@ fn built_in(name: &str, view: &ViewArgs, size: Option<UVec2>) -> Result<Prepared
         "cornell" => presets::cornell_box(),
         "empty-cornell" => presets::empty_cornell_box(),
         "veach-mis" => presets::veach_mis(),
-
         _ => {
             let there = "there are builtin:cornell, builtin:empty-cornell and builtin:veach-mis";
             return Err(CliError::Usage(format!("'{BUILT_IN}{name}': no such scene is built in; {there}")));

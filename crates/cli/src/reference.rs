@@ -7,11 +7,11 @@ use etendue::core::UVec2;
 use etendue::measure::{Reference, Residual};
 use serde_json::json;
 
-use crate::args::{ReferenceArgs, RenderArgs, SamplerName, Tone};
+use crate::args::{MethodArgs, ReferenceArgs, RenderArgs, SamplerName, Tone};
 use crate::error::CliError;
 use crate::outputs::{check_place, write_json};
 use crate::picture::is_film;
-use crate::render;
+use crate::render::{self, Rendered};
 use crate::session::print;
 
 /// Independent parts of the point set. Two would do for the whole picture; four also tell of each pixel, and cost a
@@ -23,18 +23,23 @@ const RESIDUAL: &str = "residual_relmse";
 pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     let output = with_film(args);
     let besides: Vec<PathBuf> =
-        output.iter().filter(|p| is_linear(p)).map(|p| p.with_extension("json")).collect();
+        output.iter().filter(|p| is_exact(p)).map(|p| p.with_extension("json")).collect();
     for path in &besides {
         check_place(path)?;
         refuse_others(path)?;
+        if args.json.as_ref() == Some(path) {
+            let why = "is where the picture's own error goes; choose another name for the report";
+            return Err(CliError::Usage(format!("'--json {}' {why}", path.display())));
+        }
     }
     let there = output.iter().find(|p| is_film(p) && p.exists()).cloned();
-    let rendered = render::render(&RenderArgs {
+    let Rendered { outcome, interrupted } = render::render(&RenderArgs {
         first: Some(args.scene.clone()),
         output,
         spp: args.spp,
         view: args.view.clone(),
-        method: args.method.clone(),
+        // A render of this seed must not be a part of its own reference: the first replicate is such a render.
+        method: MethodArgs { seed: !args.method.seed, ..args.method.clone() },
         integrator: args.integrator.clone(),
         sampler: SamplerName::Sobol,
         reference: Some(None),
@@ -48,18 +53,25 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
         aov: Vec::new(),
         replicates: REPLICATES,
     })?;
-    let film = rendered.picture();
+    let film = outcome.picture();
     let Some(reference) = Reference::from_film(film) else {
+        // What is said there is of an earlier picture.
+        if film.total_samples() > 0 {
+            besides.iter().for_each(|path| drop(std::fs::remove_file(path)));
+        }
+        if let Some(e) = interrupted {
+            return Err(e);
+        }
         let cure = format!("it needs at least {REPLICATES} samples per pixel");
         return Err(CliError::Usage(format!("the reference does not tell its error yet: {cure}")));
     };
-    let Residual { relative, trimmed, absolute } = reference.residual;
-    print(&format!("residual relMSE {relative:.3e}, trimmed {trimmed:.3e}, RMSE {:.3e}", absolute.sqrt()))?;
-    let spp = rendered.info.samples.count();
+    let spp = outcome.info.samples.count();
     for path in &besides {
         write_json(path, &facts(&args.scene, film, spp, &reference))?;
     }
-    Ok(())
+    let Residual { relative, trimmed, absolute } = reference.residual;
+    print(&format!("residual relMSE {relative:.3e}, trimmed {trimmed:.3e}, RMSE {:.3e}", absolute.sqrt()))?;
+    interrupted.map_or(Ok(()), Err)
 }
 
 /// The outputs, with a film among them.
@@ -73,9 +85,9 @@ fn with_film(args: &ReferenceArgs) -> Vec<PathBuf> {
     output
 }
 
-/// Whether a picture can be a reference again: those of 8 bits cannot.
-fn is_linear(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr") || e.eq_ignore_ascii_case("hdr"))
+/// Whether a picture can be a reference again: those of 8 bits cannot, and the rounding of .hdr would pass for bias.
+fn is_exact(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"))
 }
 
 /// A file that has the name by chance is not overwritten.

@@ -21,8 +21,7 @@ fn number(v: &Value) -> f64 {
 fn a_bench_measures_every_combination_and_the_first_twice() {
     let b = Bench::new("combinations");
     b.good("reference a.obj --size 12x10 --spp 64 -o ref.film");
-    let flags =
-        "--integrator path,path:light=none --sampler sobol,stratified --reference ref.film --spp 8 --runs 3";
+    let flags = "--integrator path,path:light=none,path --sampler sobol,stratified --reference ref.film --spp 8 --runs 3";
     let [out, _] = b.good(&format!("bench a.obj {flags} --json b.json --html b.html"));
     let report = b.json("b.json");
     let names: Vec<&str> = contenders(&report).iter().filter_map(|c| c["name"].as_str()).collect();
@@ -46,6 +45,8 @@ fn a_bench_measures_every_combination_and_the_first_twice() {
         let parts = ["variance", "bias_squared"].map(|k| number(&p["relmse"][k]["value"]));
         let residual = number(&report["scenes"][0]["reference"]["relmse"]);
         let whole = number(&p["relmse"]["measured"]["value"]);
+        let each = p["relmse"]["of_each_run"].as_array().expect("a list");
+        assert!((each.iter().map(number).sum::<f64>() / 3.0 / whole - 1.0).abs() < 1e-12);
         assert!((parts[0] + parts[1] + residual - whole).abs() < 1e-12 * whole);
         assert!(c["points"][0]["relmse"]["measured"]["interval"].is_array());
     }
@@ -112,8 +113,7 @@ fn a_curve_is_written_while_rendering() {
         let rows: Vec<Vec<&str>> = text.lines().map(|l| l.split(',').collect()).collect();
         assert_eq!(rows[0][0], "spp");
         let spp: Vec<&str> = rows[1..].iter().map(|r| r[0]).collect();
-        assert_eq!(spp.iter().filter(|s| ["1", "2", "4", "8", "16", "24"].contains(s)).count(), spp.len());
-        assert_eq!((spp[0], *spp.last().expect("rows")), ("1", "24"));
+        assert_eq!(spp, ["1", "2", "4", "8", "16", "24"], "{out}");
         let column = |name| rows[0].iter().position(|c| *c == name).expect("a column");
         let at_end: f64 = rows[rows.len() - 1][column("relmse")].parse().expect("a number");
         assert!((at_end / number(&b.json("c.json")["relmse"]) - 1.0).abs() < 1e-9);
@@ -146,8 +146,10 @@ fn what_cannot_be_measured_is_refused_with_the_cure() {
         ("bench builtin:cornell --camera 0", "one camera"),
         ("bench a.obj --integrator path:light=maybe", "balance"),
         ("bench a.obj --integrator path:speed=9", "depth=N"),
-        ("bench a.obj --runs 0", "1..=1000"),
+        ("bench a.obj --runs 0", "1..=100"),
         ("bench a.obj --html nowhere/b.html", "create it first"),
+        ("bench a.obj --html b --json b", "named twice"),
+        ("render a.obj --json x.exr -o x.exr", "named twice"),
         ("reference a.obj", "--time"),
         ("reference a.obj --size 4x4 --spp 1 -o one.film", "at least 4"),
     ] {
@@ -160,6 +162,12 @@ fn what_cannot_be_measured_is_refused_with_the_cure() {
     b.write("four.json", "{\"residual_relmse\": -1}");
     let e = b.bad("bench a.obj --reference four.exr", 2);
     assert!(e.contains("four.json") && e.contains("residual_relmse"), "{e}");
+    b.write(
+        "four.json",
+        "{\"residual_relmse\":0,\"residual_relmse_trim\":0,\"residual_rmse\":0,\"mean\":[9,9,9]}",
+    );
+    let e = b.bad("bench a.obj --reference four.exr", 2);
+    assert!(e.contains("another picture"), "{e}");
     let [_, warned] = b.good("bench a.obj --reference a.film --spp 1 --runs 1");
     assert!(warned.contains("one replicate"), "{warned}");
 }
@@ -179,13 +187,56 @@ fn without_a_reference_variance_is_measured() {
 #[test]
 fn ctrl_c_keeps_what_was_measured() {
     let b = Bench::new("stopped");
-    let child = b.spawn("bench builtin:cornell --size 64x64 --time 1h --json b.json");
+    let child = b.spawn("bench builtin:cornell --size 64x64 --time 1h --json b.json --html b.html");
     std::thread::sleep(std::time::Duration::from_millis(1500));
     signal(&child, "INT");
     let out = child.wait_with_output().expect("the program ends");
     assert_eq!(out.status.code(), Some(130), "{}", String::from_utf8_lossy(&out.stderr));
     let report = b.json("b.json");
     assert!(number(&last(&contenders(&report)[0])["spp"]) >= 1.0);
+    let page = String::from_utf8(b.bytes("b.html")).expect("UTF-8");
+    assert!(page.contains("<svg") && !page.contains("data:image"), "a picture of half a pass is no point's");
+}
+
+#[test]
+fn what_one_scene_told_is_not_lost_with_the_next() {
+    let b = Bench::new("second");
+    let e = b.bad("bench a.obj nix.obj --size 4x4 --spp 2 --threads 1 --json b.json --html b.html", 1);
+    assert!(e.contains("nix.obj"), "{e}");
+    let report = b.json("b.json");
+    assert_eq!(
+        (report["scenes"].as_array().map(Vec::len), last(&contenders(&report)[0])["spp"].as_u64()),
+        (Some(1), Some(2))
+    );
+    let page = String::from_utf8(b.bytes("b.html")).expect("UTF-8");
+    assert!(page.contains("1 threads") && page.contains("<dt>threads</dt><dd>1</dd>"));
+}
+
+/// The first of a reference's independent parts is what a render of its seed draws.
+#[test]
+fn a_render_is_not_a_part_of_its_reference() {
+    let b = Bench::new("apart");
+    b.good("reference a.obj --size 24x20 --spp 64 -o ref.film");
+    b.good("bench a.obj --reference ref.film --spp 16 --runs 6 --json all.json");
+    b.good("bench a.obj --reference ref.film --spp 16 --runs 1 --json own.json");
+    let relmse = |name: &str| number(&last(&contenders(&b.json(name))[0])["relmse"]["measured"]["value"]);
+    let (own, all) = (relmse("own.json"), relmse("all.json"));
+    assert!((0.7..1.4).contains(&(own / all)), "seed 0 is off by {own}, six seeds by {all}");
+}
+
+#[test]
+fn a_stopped_reference_tells_its_error() {
+    let b = Bench::new("short");
+    b.write("r.json", "{\"residual_relmse\": 1e-9, \"of\": \"an earlier one\"}");
+    let child = b.spawn("reference builtin:cornell --size 32x32 --time 1h -o r.exr");
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    signal(&child, "INT");
+    let out = child.wait_with_output().expect("the program ends");
+    assert_eq!(out.status.code(), Some(130), "{}", String::from_utf8_lossy(&out.stderr));
+    let facts = b.json("r.json");
+    assert!(facts["of"].is_null() && number(&facts["residual_relmse"]) > 1e-9 && b.path("r.exr").is_file());
+    let e = b.bad("reference a.obj --size 4x4 --spp 4 -o s.exr --json s.json", 2);
+    assert!(e.contains("s.json"), "{e}");
 }
 
 #[test]

@@ -57,6 +57,7 @@
 //! Limits: intervals rest on the scatter of a few runs; five are few, two say little. Uses core, sampling, camera, scene
 //! and integrator.
 
+mod axes;
 pub mod colour_map;
 mod compare;
 mod contender;
@@ -69,10 +70,11 @@ mod point;
 mod reference;
 pub mod report;
 
+pub use axes::{Axis, Costs, Metric};
 pub use compare::{CompareError, Comparison, compare};
 pub use contender::{Contender, Drawn, Estimator, RenderRun};
 pub use convergence::{Budget, Clocks, MeasureError, convergence, race};
 pub use curve::{Curve, Known, ToError};
 pub use interval::{CONFIDENCE, Measured, jackknife, jackknife_factor};
-pub use point::{Axis, Costs, Metric, Point};
+pub use point::Point;
 pub use reference::{Reference, Residual};

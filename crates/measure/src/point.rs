@@ -1,58 +1,7 @@
 use crate::compare::{EPSILON, finite, trimmed_mean};
 use crate::gram::Gram;
 use crate::interval::{Measured, jackknife, jackknife_factor};
-use crate::{CompareError, Reference, Residual};
-
-/// How the distance of two pictures is told as one number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Metric {
-    /// relMSE: mean of (x − r)² / (r² + 0.01) over pixels and channels (Rousselle, Knaus & Zwicker 2011).
-    Relative,
-    /// relMSE without the worst 0.1 % of pixels.
-    Trimmed,
-    /// Mean square error, (W·m⁻²·sr⁻¹)².
-    Absolute,
-}
-
-/// What a run has cost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Axis {
-    /// Camera samples.
-    Samples,
-    /// Rays traced.
-    Rays,
-    /// Seconds by the wall.
-    Seconds,
-    /// Seconds of all threads together.
-    CpuSeconds,
-}
-
-/// What one run has cost up to a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Costs {
-    /// Camera samples.
-    pub samples: u64,
-    /// Rays traced.
-    pub rays: u64,
-    /// Samples that were no usable numbers and count as black.
-    pub rejected: u64,
-    /// Seconds by the wall, of drawing alone.
-    pub seconds: f64,
-    /// Seconds of all threads together; `None` without such a clock.
-    pub cpu_seconds: Option<f64>,
-}
-
-impl Costs {
-    fn on(&self, axis: Axis) -> Option<f64> {
-        match axis {
-            Axis::Samples => Some(self.samples as f64),
-            Axis::Rays => Some(self.rays as f64),
-            Axis::Seconds => Some(self.seconds),
-            Axis::CpuSeconds => self.cpu_seconds,
-        }
-        .filter(|c| *c > 0.0)
-    }
-}
+use crate::{Axis, CompareError, Costs, Metric, Reference, Residual};
 
 /// Error and cost of several independent runs of one estimator at one number of samples.
 ///
@@ -67,6 +16,8 @@ pub struct Point {
     pub costs: Vec<Costs>,
     /// Pixels that were left out because the reference or one of the runs was no number there.
     pub not_finite: u64,
+    /// Pixels that were not.
+    compared: usize,
     relative: Gram,
     absolute: Gram,
     /// Trimmed relMSE of each run.
@@ -142,7 +93,8 @@ impl Point {
             errors.iter_mut().zip(error).for_each(|(all, e)| all.push(e));
             variances.iter_mut().zip(variance).for_each(|(all, v)| all.push(v));
         }
-        let values = 3.0 * (pixels as f64 - not_finite as f64).max(1.0);
+        let compared = errors.first().map_or(0, Vec::len);
+        let values = 3.0 * compared.max(1) as f64;
         relative.divide(values);
         absolute.divide(values);
         let trimmed = errors.iter_mut().map(|e| trimmed_mean(e)).collect();
@@ -150,7 +102,7 @@ impl Point {
         let trimmed_variance =
             variances.iter_mut().enumerate().map(|(i, v)| enough(i).then(|| trimmed_mean(v))).collect();
         let residual = reference.map(|r| r.residual);
-        Self { spp, costs, not_finite, relative, absolute, trimmed, trimmed_variance, residual }
+        Self { spp, costs, not_finite, compared, relative, absolute, trimmed, trimmed_variance, residual }
     }
 
     /// Independent runs.
@@ -159,7 +111,7 @@ impl Point {
     }
 
     fn raw(&self, metric: Metric, kept: &[usize]) -> Option<f64> {
-        self.residual?;
+        self.residual.filter(|_| self.compared > 0)?;
         match metric {
             Metric::Relative => self.relative.square(kept),
             Metric::Absolute => self.absolute.square(kept),
@@ -169,12 +121,17 @@ impl Point {
     }
 
     fn variance_of(&self, metric: Metric, kept: &[usize]) -> Option<f64> {
+        if self.compared == 0 {
+            return None;
+        }
         match metric {
             Metric::Relative => self.relative.variance(kept),
             Metric::Absolute => self.absolute.variance(kept),
             Metric::Trimmed => {
-                let left_out = (0..self.runs()).find(|k| !kept.contains(k));
-                *self.trimmed_variance.get(left_out.map_or(0, |k| k + 1))?
+                // Known of all runs, and with one of them left out.
+                let mut left_out = (0..self.runs()).filter(|k| !kept.contains(k));
+                let place = left_out.next().map_or(0, |k| k + 1);
+                left_out.next().is_none().then(|| self.trimmed_variance.get(place).copied().flatten())?
             }
         }
     }
@@ -206,6 +163,11 @@ impl Point {
         jackknife(self.runs(), |kept| self.raw(metric, kept))
     }
 
+    /// The error of each run, as it is measured against the reference; empty without one.
+    pub fn errors_of_runs(&self, metric: Metric) -> Vec<f64> {
+        (0..self.runs()).filter_map(|k| self.raw(metric, &[k])).collect()
+    }
+
     /// The mean error of one run against the truth: without the reference's own part. Without a reference it is the
     /// variance. `None` where the reference is worse than the picture, or a single run has no reference.
     pub fn corrected(&self, metric: Metric) -> Option<Measured> {
@@ -228,14 +190,16 @@ impl Point {
 
     /// Square of the bias: the part of the error that neither variance nor the reference's own error explains. Zero
     /// within its interval for an unbiased estimator; scatters around zero, so that it can be negative. `None` without
-    /// a reference or below two runs.
+    /// a reference or below two runs, and trimmed: the pixels where a run is worst are others than those where runs
+    /// differ most, and an error without the ones is not the sum of parts without the others.
     pub fn bias_squared(&self, metric: Metric) -> Option<Measured> {
-        let residual = self.residual(metric)?;
-        jackknife(self.runs(), |kept| match metric {
-            Metric::Relative => Some(self.relative.common(kept)? - residual),
-            Metric::Absolute => Some(self.absolute.common(kept)? - residual),
-            Metric::Trimmed => Some(self.raw(metric, kept)? - self.variance_of(metric, kept)? - residual),
-        })
+        let residual = self.residual(metric).filter(|_| self.compared > 0)?;
+        let gram = match metric {
+            Metric::Relative => &self.relative,
+            Metric::Absolute => &self.absolute,
+            Metric::Trimmed => return None,
+        };
+        jackknife(self.runs(), |kept| Some(gram.common(kept)? - residual))
     }
 
     /// Mean cost of one run; `None` where it was not measured.

@@ -148,6 +148,27 @@ fn a_bias_of_one_percent_is_shown_as_bias() {
     assert!(found >= 36 && false_alarms <= 4, "{found} of 40 found, {false_alarms} false");
 }
 
+/// In a picture of many pixels a bias is seen beneath noise of ten times its size.
+#[test]
+fn a_bias_of_a_tenth_of_the_noise_is_shown_as_bias() {
+    let pixels = 128 * 128;
+    let reference = Reference::exact([128, 128], vec![[1.0; 3]; pixels]);
+    let (clock, budget) = (Wound::default(), Budget { spp: 32, seconds: None });
+    let mut found = 0;
+    for trial in 0..10 {
+        let clocks = Clocks { wall: &clock, cpu: None };
+        let ramp =
+            contender("ramp", RUNS, |k| Ramp { factor: 1.01, ..Ramp::new(pixels, trial * 1000 + k, &clock) });
+        let curve = convergence(ramp, Some(&reference), &budget, clocks).expect("a curve");
+        let of = |m: Option<etendue_measure::Measured>| m.expect("a number");
+        let [variance, bias] =
+            [last(&curve).variance(Metric::Absolute), last(&curve).bias_squared(Metric::Absolute)].map(of);
+        assert!(variance.value > 100.0 * 1e-4, "{variance:?}");
+        found += usize::from(!bias.holds(0.0) && bias.holds(1e-4));
+    }
+    assert!(found >= 8, "{found} of 10 found");
+}
+
 /// The same estimator as two contenders on a machine that slows down and speeds up: their ratio is 1 within its
 /// interval. A contender that really is 1.3 times as efficient is told apart.
 #[test]

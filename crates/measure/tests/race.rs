@@ -11,8 +11,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use common::{Ramp, VARIANCE, Wound, contender};
 use etendue_core::Progress;
 use etendue_measure::{
-    Axis, Budget, Clocks, Contender, Curve, Drawn, Estimator, Known, MeasureError, Metric, Reference,
-    convergence, race,
+    Axis, Budget, Clocks, Contender, Costs, Curve, Drawn, Estimator, Known, MeasureError, Metric, Point,
+    Reference, convergence, race,
 };
 
 fn exact(pixels: usize) -> Reference {
@@ -200,4 +200,31 @@ fn what_is_no_number_is_left_out_of_all_runs() {
     assert_eq!(p.not_finite, 2);
     assert!((p.error(Metric::Absolute).expect("two pixels").value - 0.25).abs() < 1e-12);
     assert_eq!(p.efficiency(Metric::Absolute, Axis::Seconds), None, "no time has passed");
+    let nowhere = Reference::exact([4, 1], vec![[f32::NAN; 3]; 4]);
+    let p = Point::new(1, vec![p.costs[0]; 2], &vec![vec![[1.5; 3]; 4]; 2], Some(&nowhere)).expect("a point");
+    for metric in [Metric::Relative, Metric::Trimmed, Metric::Absolute] {
+        let numbers = [p.error(metric), p.variance(metric), p.bias_squared(metric), p.corrected(metric)];
+        assert_eq!(numbers, [None; 4], "there is no pixel to say anything by");
+    }
+}
+
+/// The pixels that are trimmed of an error are not those that are trimmed of a variance.
+#[test]
+fn trimmed_parts_are_no_parts_of_the_trimmed_error() {
+    let picture = |k: usize| -> Vec<[f32; 3]> {
+        (0..1000).map(|p| [1.0 + common::uniform(k as u64, p, 0) as f32; 3]).collect()
+    };
+    let (three, five): (Vec<_>, Vec<_>) = ((0..3).map(picture).collect(), (0..5).map(picture).collect());
+    let reference = exact(1000);
+    let point = |pictures: &[Vec<[f32; 3]>], reference| {
+        let costs = vec![Costs { samples: 1, ..Costs::default() }; pictures.len()];
+        Point::new(1, costs, pictures, reference).expect("a point")
+    };
+    let p = point(&five, Some(&reference));
+    assert!(p.error(Metric::Trimmed).is_some() && p.variance(Metric::Trimmed).is_some());
+    assert_eq!(p.bias_squared(Metric::Trimmed), None);
+    // Of five runs, the trimmed variance of three of them is not known.
+    let (few, many) = (point(&three, None), point(&five, None));
+    assert_eq!(many.efficiency_over(&few, Metric::Trimmed, Axis::Samples), None);
+    assert!(many.efficiency_over(&many, Metric::Trimmed, Axis::Samples).is_some_and(|m| m.holds(1.0)));
 }

@@ -24,7 +24,7 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "TIME", value_parser = values::time)]
     pub(crate) time: Option<f64>,
     /// Independent runs of every contender, from whose scatter all intervals come; below 3 there are none for bias
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=100))]
     pub(crate) runs: u32,
     /// What is right: a .film of 'etendue reference', a picture, or a folder with one named like each scene
     #[arg(long, value_name = "REF")]

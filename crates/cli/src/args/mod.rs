@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use bench::{BenchArgs, ReferenceArgs};
-pub(crate) use method::{IntegratorChoice, SamplerName};
+pub(crate) use method::{IntegratorChoice, MethodArgs, SamplerName};
 pub(crate) use render::{Aov, RenderArgs, Tone};
 pub(crate) use values::Threads;
 pub(crate) use view::{Materials, ViewArgs};

@@ -17,14 +17,18 @@ pub(super) struct Entry {
     seed: u64,
 }
 
-/// Every integrator with every sampler, and the first of them again with other seeds: what it differs from itself by
+/// Every integrator with every sampler, each once, and the first of them again with other seeds: what it differs from itself by
 /// is the noise of the machine and of the estimate.
 pub(super) fn entries(args: &BenchArgs) -> Vec<Entry> {
     let mut out = Vec::new();
     for integrator in &args.integrator {
         for &sampler in &args.sampler {
+            let name = format!("{} {}", integrator.word, word(sampler));
+            if out.iter().any(|e: &Entry| e.name == name) {
+                continue;
+            }
             out.push(Entry {
-                name: format!("{} {}", integrator.word, word(sampler)),
+                name,
                 tracer: integrator.tracer(args.method.max_depth),
                 sampler,
                 seed: args.method.seed,

@@ -82,6 +82,7 @@ fn point(p: &Point) -> Value {
         for (name, metric) in METRICS {
             let numbers = json!({
                 "measured": measured(p.error(metric)),
+                "of_each_run": p.errors_of_runs(metric),
                 "corrected": measured(p.corrected(metric)),
                 "variance": measured(p.variance(metric)),
                 "bias_squared": measured(p.bias_squared(metric)),

@@ -15,7 +15,10 @@ const WIDEST: u32 = 480;
 /// The galleries of a scene: pictures, and against a reference also signed errors and FLIP.
 pub(super) fn galleries(result: &SceneResult) -> Result<Vec<Gallery>, CliError> {
     // The first contender's second set of runs differs in noise alone.
-    let shown: Vec<usize> = (0..result.curves.len()).filter(|&i| i != 1).collect();
+    let shown: Vec<usize> = (0..result.pictures.len()).filter(|&i| i != 1).collect();
+    if shown.is_empty() {
+        return Ok(Vec::new());
+    }
     let spp = |i: usize| result.curves[i].points.last().map_or(0, |p| p.spp);
     let caption = |i: usize| format!("{}, {} spp", result.curves[i].name, spp(i));
     let tone = ToneMap::default();

@@ -19,7 +19,7 @@ use serde_json::json;
 
 use crate::args::{BenchArgs, SamplerName};
 use crate::error::CliError;
-use crate::outputs::{check_place, write_json};
+use crate::outputs::{check_distinct, check_place, write_json};
 use crate::session::{CpuClock, Interrupt, in_pool, print, say};
 use crate::{picture, prepare, render};
 use summary::SceneResult;
@@ -30,6 +30,7 @@ const SPP: u64 = 64;
 const UNLIMITED: u64 = 1 << 30;
 
 pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
+    check_distinct(args.html.iter().chain(&args.json))?;
     for path in args.html.iter().chain(&args.json) {
         check_place(path)?;
     }
@@ -38,26 +39,25 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
         say("note: 'stratified' begins anew at every number of samples");
     }
     let interrupt = Interrupt::listen();
-    let results = in_pool(args.method.threads, || {
-        let mut results = Vec::new();
+    let mut results = Vec::new();
+    let done = in_pool(args.method.threads, || {
         for scene in &args.scenes {
             let result = measure(args, scene, &interrupt)?;
-            for line in table::lines(&result) {
-                print(&line)?;
-            }
-            print("")?;
+            let lines = table::lines(&result);
             results.push(result);
+            lines.iter().try_for_each(|line| print(line))?;
+            print("")?;
             if interrupt.requested() {
                 break;
             }
         }
-        Ok(results)
-    })?;
-    let mut written = Vec::new();
-    if let Some(path) = &args.html {
-        write_atomically(path, page::html(&results, &command())?.as_bytes())?;
-        written.push(path.display().to_string());
+        Ok(())
+    });
+    // What a scene took hours to tell is not lost with the one after it.
+    if results.is_empty() {
+        return done;
     }
+    let mut written = Vec::new();
     if let Some(path) = &args.json {
         let scenes: Vec<_> = results.iter().map(json::value).collect();
         let report = json!({
@@ -68,17 +68,29 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
         write_json(path, &report)?;
         written.push(path.display().to_string());
     }
+    if let Some(path) = &args.html {
+        write_atomically(path, page::html(&results, &command())?.as_bytes())?;
+        written.push(path.display().to_string());
+    }
     if interrupt.requested() {
         let files = if written.is_empty() { "nothing".into() } else { written.join(", ") };
         return Err(CliError::Interrupted(format!("written with what had been measured: {files}")));
     }
-    Ok(())
+    done
 }
 
-/// The command line as it was given.
+/// The command line as it was given, for a shell to read again.
 fn command() -> String {
-    let words = std::env::args_os().skip(1).map(|w| w.to_string_lossy().into_owned());
+    let words = std::env::args_os().skip(1).map(|w| quoted(&w.to_string_lossy()));
     std::iter::once("etendue".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 /// What is right for a scene: the file that was named, or the one in the folder that is called like the scene.
@@ -134,7 +146,9 @@ fn measure(args: &BenchArgs, path: &Path, interrupt: &Interrupt) -> Result<Scene
     let (wall, cpu) = (SystemClock::default(), CpuClock::start());
     let clocks = Clocks { wall: &wall, cpu: cpu.as_ref().map(|c| c as _) };
     let curves = race(&mut field, reference.as_ref().map(|(_, r)| r), &budget, clocks, interrupt)?;
-    let pictures = field.iter().map(|c| c.runs.first().map_or_else(Vec::new, |r| r.picture())).collect();
+    // A run that was stopped has more samples than its last point, and not in every pixel.
+    let whole = field.iter().filter(|_| !interrupt.requested());
+    let pictures = whole.map(|c| c.runs.first().map_or_else(Vec::new, |r| r.picture())).collect();
     Ok(SceneResult {
         name: built.prepared.scene_name.clone(),
         size: size.to_array(),
@@ -146,4 +160,18 @@ fn measure(args: &BenchArgs, path: &Path, interrupt: &Interrupt) -> Result<Scene
         pictures,
         warnings,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn commands_can_be_given_again() {
+        for (word, want) in
+            [("a/b.glb", "a/b.glb"), ("my box.glb", "'my box.glb'"), ("", "''"), ("it's", "'it'\\''s'")]
+        {
+            assert_eq!(quoted(word), want);
+        }
+    }
 }

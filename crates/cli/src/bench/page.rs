@@ -16,7 +16,7 @@ pub(super) fn html(results: &[SceneResult], command: &str) -> Result<String, Cli
     let facts = [
         ("program", format!("etendue {}", env!("CARGO_PKG_VERSION"))),
         ("machine", format!("{} {}", std::env::consts::OS, std::env::consts::ARCH)),
-        ("threads", rayon::current_num_threads().to_string()),
+        ("threads", results.first().map_or(0, |r| r.threads).to_string()),
     ];
     let lead = [
         "Every contender renders each picture several times with different random numbers. An error against the \
@@ -110,12 +110,7 @@ fn judged(result: &SceneResult) -> Table {
          goes on along the slope beyond the last point, and “≤” lies before the first."
             .into(),
     ];
-    for r in rows.iter().filter(|r| r.last.is_limited_by_reference(Metric::Relative)) {
-        notes.push(format!("More than half of the error of “{}” is the reference's own.", r.name));
-    }
-    for (curve, bias) in result.curves.iter().zip(&result.bias).filter(|(_, b)| !b.is_empty()) {
-        notes.push(format!("“{}” is biased: {}.", curve.name, bias.join("; ")));
-    }
+    notes.extend(result.notes().iter().map(|note| format!("{note}.")));
     Table {
         caption: "The last point of every contender".into(),
         head,
@@ -224,6 +219,9 @@ fn plots(result: &SceneResult) -> Vec<Plot> {
         let split = result.curves.iter().enumerate().flat_map(|(i, c)| {
             // What the bias is at most can be drawn; the estimate scatters around zero and has no place half of the time.
             let at_most = |p: &Point| {
+                if p.is_limited_by_reference(Metric::Relative) {
+                    return None;
+                }
                 let [_, high] = p.bias_squared(Metric::Relative)?.interval?;
                 Some(Measured::without_interval(high))
             };

@@ -10,7 +10,7 @@ pub(super) struct SceneResult {
     pub(super) curves: Vec<Curve>,
     /// Biased options of each contender.
     pub(super) bias: Vec<Vec<String>>,
-    /// The picture of each contender's first run.
+    /// The picture of each contender's first run; none where the measurement was stopped.
     pub(super) pictures: Vec<Vec<[f32; 3]>>,
     pub(super) warnings: Vec<String>,
 }
@@ -40,7 +40,10 @@ impl SceneResult {
 
     /// The relMSE that every contender gets to, for the time to it.
     pub(super) fn target(&self) -> Option<f64> {
-        let last = |c: &Curve| Some(c.points.last()?.corrected(Metric::Relative)?.value);
+        let last = |c: &Curve| {
+            let own = c.points.iter().rev().filter(|p| !p.is_limited_by_reference(Metric::Relative));
+            own.filter_map(|p| p.corrected(Metric::Relative)).map(|m| m.value).next()
+        };
         let all: Option<Vec<f64>> = self.curves.iter().map(last).collect();
         all?.into_iter().reduce(f64::max)
     }
@@ -52,12 +55,18 @@ impl SceneResult {
             .iter()
             .filter_map(|c| {
                 let (last, common) = (c.points.last()?, c.last_common(first));
-                let over = |metric| common.and_then(|(a, b)| a.efficiency_over(b, metric, axis));
+                // Nothing is judged by what is left of the reference's error.
+                let own = |p: &Point, metric| !p.is_limited_by_reference(metric);
+                let over = |metric| {
+                    let (a, b) = common.filter(|(a, b)| own(a, metric) && own(b, metric))?;
+                    a.efficiency_over(b, metric, axis)
+                };
+                let efficiency = || last.efficiency(Metric::Relative, axis);
                 Some(Row {
                     name: &c.name,
                     last,
                     slope: c.slope(Metric::Relative, Axis::Samples),
-                    efficiency: last.efficiency(Metric::Relative, axis),
+                    efficiency: own(last, Metric::Relative).then(efficiency).flatten(),
                     ratio: over(Metric::Relative),
                     trimmed_ratio: over(Metric::Trimmed),
                     to_target: target.and_then(|t| c.to_error(Metric::Relative, t, axis)),
@@ -66,11 +75,42 @@ impl SceneResult {
             })
             .collect()
     }
+
+    /// What to know before the numbers are believed.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        for (curve, bias) in self.curves.iter().zip(&self.bias) {
+            let (name, last) = (&curve.name, curve.points.last());
+            if last.is_some_and(|p| p.is_limited_by_reference(Metric::Relative)) {
+                out.push(format!(
+                    "'{name}': more than half of its error is the reference's own, and nothing is told by the rest; \
+                     lengthen the reference"
+                ));
+            }
+            if !bias.is_empty() {
+                out.push(format!("'{name}' is biased: {}", bias.join("; ")));
+            }
+            let rejected: u64 = last.map_or(0, |p| p.costs.iter().map(|c| c.rejected).sum());
+            if rejected > 0 {
+                out.push(format!("'{name}': {rejected} samples are no usable numbers and count as black"));
+            }
+            let not_finite = last.map_or(0, |p| p.not_finite);
+            if not_finite > 0 {
+                out.push(format!(
+                    "'{name}': {not_finite} pixels are no numbers in the reference or in one of the runs, and are left out"
+                ));
+            }
+        }
+        out
+    }
 }
 
-/// Squared bias as a part of relMSE.
+/// Squared bias as a part of relMSE; `None` too where the reference's own error, which is an estimate, is most of it.
 pub(super) fn bias_share(p: &Point) -> Option<Measured> {
-    let error = p.error(Metric::Relative)?.value;
+    if p.is_limited_by_reference(Metric::Relative) {
+        return None;
+    }
+    let error = p.error(Metric::Relative).map(|e| e.value).filter(|e| *e > 0.0)?;
     let bias = p.bias_squared(Metric::Relative)?;
     Some(Measured { value: bias.value / error, interval: bias.interval.map(|i| i.map(|x| x / error)) })
 }
@@ -102,5 +142,55 @@ pub(super) fn short(x: f64) -> String {
         a if a < 10.0 => format!("{x:.2}"),
         a if a < 100.0 => format!("{x:.1}"),
         _ => format!("{x:.0}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue::measure::{Costs, Residual};
+
+    /// Two runs that are off by this much in every pixel, up and down.
+    fn result(off: f32, residual: f64, rejected: u64) -> SceneResult {
+        let pixels = |x: f32| vec![[x; 3]; 4];
+        let residual = Residual { relative: residual, trimmed: residual, absolute: residual };
+        let reference = Reference { residual, ..Reference::exact([4, 1], pixels(1.0)) };
+        let costs = vec![Costs { samples: 4, rejected, seconds: 1.0, ..Costs::default() }; 2];
+        let pictures = [pixels(1.0 + off), pixels(1.0 - off)];
+        let point = Point::new(1, costs, &pictures, Some(&reference)).expect("a point");
+        SceneResult {
+            name: "scene".into(),
+            size: [4, 1],
+            runs: 2,
+            threads: 1,
+            reference: Some(("r".into(), reference)),
+            curves: vec![Curve { name: "path".into(), points: vec![point] }],
+            bias: vec![Vec::new()],
+            pictures: vec![pixels(1.0)],
+            warnings: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn what_the_reference_limits_is_not_judged() {
+        let good = result(0.1, 1e-4, 0);
+        let row = &good.rows()[0];
+        assert!(row.efficiency.is_some() && row.ratio.is_some() && good.target().is_some());
+        assert!(bias_share(row.last).is_some() && good.notes().is_empty());
+        let limited = result(0.1, 6e-3, 0);
+        let row = &limited.rows()[0];
+        assert_eq!(
+            (row.efficiency, row.ratio, row.trimmed_ratio, limited.target()),
+            (None, None, None, None)
+        );
+        assert_eq!(bias_share(row.last), None);
+        assert!(limited.notes()[0].contains("lengthen the reference"), "{:?}", limited.notes());
+    }
+
+    #[test]
+    fn nothing_is_no_part_of_nothing_and_losses_are_told() {
+        let exact = result(0.0, 0.0, 3);
+        assert_eq!(bias_share(exact.rows()[0].last), None);
+        assert!(exact.notes()[0].contains("6 samples"), "{:?}", exact.notes());
     }
 }

@@ -42,15 +42,7 @@ pub(super) fn lines(result: &SceneResult) -> Vec<String> {
     out.push(format!("efficiency is 1 / (relMSE x {cost}); the last column compares it at equal samples"));
     out.extend(target_line(result, &rows, cost));
     out.extend(noise_line(result));
-    for row in rows.iter().filter(|r| r.last.is_limited_by_reference(Metric::Relative)) {
-        out.push(format!(
-            "note: more than half of the error of '{}' is the reference's own: lengthen the reference",
-            row.name
-        ));
-    }
-    for (curve, bias) in result.curves.iter().zip(&result.bias).filter(|(_, b)| !b.is_empty()) {
-        out.push(format!("note: '{}' is biased: {}", curve.name, bias.join("; ")));
-    }
+    out.extend(result.notes().iter().map(|note| format!("note: {note}")));
     out
 }
 

@@ -21,19 +21,26 @@ use crate::prepare::{self, Built};
 use crate::report::RenderReport;
 use crate::session::{Interrupt, Stopwatch, in_pool, print, say};
 pub(crate) use settings::Settings;
-pub(crate) use work::Outcome;
-use work::Work;
+use work::{Outcome, Work};
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    render(args).map(|_| ())
+    render(args)?.interrupted.map_or(Ok(()), Err)
+}
+
+/// What was rendered and written.
+pub(crate) struct Rendered {
+    pub(crate) outcome: Outcome,
+    /// That it was stopped, if it was.
+    pub(crate) interrupted: Option<CliError>,
 }
 
 /// Does everything and gives what came out.
-pub(crate) fn render(args: &RenderArgs) -> Result<Outcome, CliError> {
+pub(crate) fn render(args: &RenderArgs) -> Result<Rendered, CliError> {
     let Some((scene, reference)) = args.scene_and_reference() else {
         return Err(CliError::Usage("name a scene".into()));
     };
     let outputs = outputs::check(&wanted(args, scene))?;
+    outputs::check_distinct(args.output.iter().chain(&args.json).chain(&args.curve))?;
     for path in args.json.iter().chain(&args.curve) {
         outputs::check_place(path)?;
     }
@@ -85,7 +92,7 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn run(&self) -> Result<Outcome, CliError> {
+    fn run(&self) -> Result<Rendered, CliError> {
         let Self { args, path, settings, outputs, reference, interrupt } = *self;
         let mut watch = Stopwatch::start();
         // Read first: a film that is damaged should not cost the time to load a scene.
@@ -171,7 +178,7 @@ impl Job<'_> {
             } else {
                 format!("written with {spp} whole samples per pixel: {}", written.join(", "))
             };
-            return Err(CliError::Interrupted(what));
+            return Ok(Rendered { outcome, interrupted: Some(CliError::Interrupted(what)) });
         }
         for path in &written {
             print(&format!("{path}: {spp} samples per pixel in {:.2} s", render.wall))?;
@@ -179,7 +186,7 @@ impl Job<'_> {
         if written.len() < outputs.len() {
             return Err(CliError::Usage("some outputs were not written: there are no samples".into()));
         }
-        Ok(outcome)
+        Ok(Rendered { outcome, interrupted: None })
     }
 }
 

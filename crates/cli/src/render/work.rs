@@ -166,6 +166,14 @@ impl<S: Sampler> Run<'_, S> {
         Ok(report.complete)
     }
 
+    /// The ranges, cut where a curve has its points.
+    fn pieces(&self, ranges: Vec<Range<u64>>) -> Vec<Range<u64>> {
+        match self.curve {
+            None => ranges,
+            Some(_) => ranges.into_iter().flat_map(at_powers_of_two).collect(),
+        }
+    }
+
     /// Without a film file, one film takes everything.
     fn at_once(
         &mut self,
@@ -174,11 +182,7 @@ impl<S: Sampler> Run<'_, S> {
         watch: &mut Watch<'_>,
     ) -> Result<(FilmInfo, Films), CliError> {
         let (mut info, mut film) = start.into_parts();
-        let ranges: Vec<Range<u64>> = match self.curve {
-            None => missing,
-            Some(_) => missing.into_iter().flat_map(at_powers_of_two).collect(),
-        };
-        for range in ranges {
+        for range in self.pieces(missing) {
             let complete = self.draw(&mut film, range, watch)?;
             info.samples.insert(complete);
             if self.totals.ended != Ended::Complete {
@@ -200,7 +204,7 @@ impl<S: Sampler> Run<'_, S> {
         let mut whole = start;
         let mut saved = self.clock.seconds();
         let mut step = 1;
-        let mut ranges = missing.into_iter();
+        let mut ranges = self.pieces(missing).into_iter();
         let mut rest = ranges.next().unwrap_or(0..0);
         while !rest.is_empty() {
             let range = rest.start..rest.end.min(rest.start.saturating_add(step));
