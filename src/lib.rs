@@ -28,7 +28,8 @@ pub mod prelude {
         CancelFlag, Frame, Needs, Origin, Progress, Ray, Spectrum, Transform, UVec2, Vec2, Vec3, Vec3A, Vec4,
     };
     pub use etendue_geometry::{
-        Geometry, Hit, Parallelogram, Plane, Shape, ShapeHit, ShapeSample, Sphere, Surface, TriangleMesh,
+        Cylinder, Disc, Geometry, Hit, Parallelogram, Plane, Shape, ShapeHit, ShapeSample, Sphere, Surface,
+        TriangleMesh,
     };
     pub use etendue_integrator::{
         Context, DirectLight, Integrator, PathTracer, Recorder, RenderOptions, Report, Roulette, Sample,

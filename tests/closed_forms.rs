@@ -110,6 +110,25 @@ fn sphere_lights_obey_the_closed_form() {
     }
 }
 
+/// E = π r² / (r² + h²) under a disc of radius 1, and E = π h² / (r² + h²) in the middle of a tube's end.
+#[test]
+fn discs_and_tubes_obey_the_closed_forms() {
+    for (r, h) in [(1.0f32, 1.0f32), (0.5, 2.0)] {
+        let (r2, h2) = (f64::from(r * r), f64::from(h * h));
+        let disc = patch(|b| lamp(b, Disc::new(Vec3A::Z * h, Vec3A::NEG_Z, r).unwrap()));
+        assert_irradiance(&disc, PI * r2 / (r2 + h2), false, &format!("disc {r} at {h}"));
+        let tube = patch(|b| {
+            let m = b.material(Diffuse::new(Spectrum::BLACK));
+            let g = b.add(Cylinder::new(Vec3A::ZERO, Vec3A::Z * h, r).unwrap(), m);
+            b.emit(g, Emission { two_sided: true, ..Emission::new(Spectrum::ONE) });
+        });
+        assert_irradiance(&tube, PI * h2 / (r2 + h2), true, &format!("tube {r} of {h}"));
+    }
+    let mut b = SceneBuilder::new();
+    lamp(&mut b, Cylinder::endless(Vec3A::ZERO, Vec3A::Z, 1.0).unwrap());
+    assert!(b.build().is_err_and(|e| e.to_string().contains("ends")));
+}
+
 /// ∫ max(0, n·ω) over the cone that a sphere fills, by the midpoint rule in the cosine from the axis and around it.
 fn irradiance_of_sphere(center: DVec3, radius: f64) -> f64 {
     const STEPS: u32 = 2000;

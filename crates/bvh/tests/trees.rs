@@ -8,9 +8,10 @@ use common::{Rng, aimed, power, soup, tree, wide};
 use etendue_bvh::{
     Accel, BruteForce, BuildError, BuildOptions, HitFilter, Instance, Quality, TreeAccel, World,
 };
-use etendue_core::{Aabb, Fingerprint, Ray, Transform, Vec3A};
+use etendue_core::{Aabb, Fingerprint, Ray, Transform, Vec2, Vec3A};
 use etendue_geometry::{
-    Geometry, Hit, Parallelogram, Plane, Shape, ShapeHit, Sphere, Surface, TriangleMesh, presets,
+    Cylinder, Disc, Geometry, Hit, Parallelogram, Plane, Shape, ShapeHit, Sphere, Surface, TriangleMesh,
+    presets,
 };
 
 /// A shape that enters by the door.
@@ -41,8 +42,11 @@ fn zoo(seed: u64) -> World {
         world.add(Sphere::new(rng.point(4.0), rng.range(0.05, 0.8)).unwrap());
         let (o, u, v) = (rng.point(4.0), rng.point(1.0), rng.point(1.0));
         world.add(Parallelogram::new(o, u, v).unwrap());
+        world.add(Disc::new(rng.point(4.0), rng.point(1.0), rng.range(0.05, 0.8)).unwrap());
+        world.add(Cylinder::new(rng.point(4.0), rng.point(4.0), rng.range(0.05, 0.3)).unwrap());
         world.add(Geometry::open(Foreign(Sphere::new(rng.point(4.0), rng.range(0.05, 0.8)).unwrap())));
     }
+    world.add(Cylinder::endless(rng.point(4.0), rng.point(1.0), 0.2).unwrap());
     world.add(Plane::new(Vec3A::new(0.0, -5.0, 0.0), Vec3A::new(0.1, 1.0, 0.0)).unwrap());
     world.masks = world.geometries.iter().map(|_| rng.bits() as u32 | 1).collect();
     // Two groups, each placed several times.
@@ -176,6 +180,18 @@ fn equal_distances_go_to_the_lowest_ids() {
     }
 }
 
+fn round(d: &Disc, s: f32) -> Geometry {
+    Disc::new(d.center() * s, d.normal(), d.radius() * s).unwrap().into()
+}
+
+fn tube(c: &Cylinder, s: f32) -> Geometry {
+    let (from, r) = (c.from() * s, c.radius() * s);
+    match c.to() {
+        Some(to) => Cylinder::new(from, to * s, r).unwrap().into(),
+        None => Cylinder::endless(from, c.axis(), r).unwrap().into(),
+    }
+}
+
 #[test]
 fn scaling_by_a_power_of_two_changes_nothing() {
     let base = zoo(77);
@@ -197,6 +213,8 @@ fn scaling_by_a_power_of_two_changes_nothing() {
                 Geometry::Parallelogram(p) => {
                     Parallelogram::new(p.origin() * s, p.edge_u() * s, p.edge_v() * s).unwrap().into()
                 }
+                Geometry::Disc(d) => round(d, s),
+                Geometry::Cylinder(c) => tube(c, s),
                 // Bounds of a foreign sphere are a sphere again.
                 Geometry::Open(o) => {
                     let b = o.bounds();
@@ -211,9 +229,14 @@ fn scaling_by_a_power_of_two_changes_nothing() {
         // Compare like with like: the same replacement at the original scale.
         let mut reference = base.clone();
         for g in &mut reference.geometries {
-            if let Geometry::Open(o) = &*g {
-                let b = o.bounds();
-                *g = Sphere::new(b.center(), 0.5 * b.extent().x).unwrap().into();
+            match &*g {
+                Geometry::Open(o) => {
+                    let b = o.bounds();
+                    *g = Sphere::new(b.center(), 0.5 * b.extent().x).unwrap().into();
+                }
+                Geometry::Disc(d) => *g = round(d, 1.0),
+                Geometry::Cylinder(c) => *g = tube(c, 1.0),
+                _ => {}
             }
         }
         let (reference, scaled) = (tree(&reference), tree(&world));
@@ -223,6 +246,9 @@ fn scaling_by_a_power_of_two_changes_nothing() {
             let found = scaled.intersect(&big).map(|h| match world.geometries[h.geom as usize] {
                 // Parameters of a plane are metres.
                 Geometry::Plane(_) => Hit { uv: h.uv * power(-k), ..h },
+                Geometry::Cylinder(c) if c.to().is_none() => {
+                    Hit { uv: h.uv * Vec2::new(1.0, power(-k)), ..h }
+                }
                 _ => h,
             });
             assert_eq!(found, expected, "2^{k}: {ray:?}");

@@ -54,14 +54,22 @@ pub enum ShapeError {
         parameter: &'static str,
     },
     /// A radius that is zero or negative.
-    #[error("sphere: the radius must be greater than zero, not {radius}")]
+    #[error("{shape}: the radius must be greater than zero, not {radius}")]
     Radius {
+        /// The shape.
+        shape: &'static str,
         /// The radius given.
         radius: f32,
     },
     /// A normal without a direction.
-    #[error("plane: the normal is zero and gives no direction")]
-    ZeroNormal,
+    #[error("{shape}: the normal is zero and gives no direction")]
+    ZeroNormal {
+        /// The shape.
+        shape: &'static str,
+    },
+    /// Ends that coincide, or an axis without a direction.
+    #[error("cylinder: the ends coincide or the axis is zero")]
+    NoAxis,
     /// Edges that span no area.
     #[error("parallelogram: the edges are zero or parallel and span no area")]
     NoArea,

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use etendue_core::{Aabb, Fingerprint, Ray};
 
-use crate::{Hit, Parallelogram, Plane, Shape, ShapeHit, Sphere, Surface, TriangleMesh};
+use crate::{Cylinder, Disc, Hit, Parallelogram, Plane, Shape, ShapeHit, Sphere, Surface, TriangleMesh};
 
 /// One geometry of a scene: the closed set that hierarchies store by value, and the door for any other shape.
 #[derive(Clone)]
@@ -16,6 +16,10 @@ pub enum Geometry {
     Plane(Plane),
     /// A flat parallelogram.
     Parallelogram(Parallelogram),
+    /// A flat round disc.
+    Disc(Disc),
+    /// An open tube.
+    Cylinder(Cylinder),
     /// A shape from outside.
     Open(Arc<dyn Shape>),
 }
@@ -38,6 +42,8 @@ impl Geometry {
             Self::Sphere(s) => Some(s),
             Self::Plane(s) => Some(s),
             Self::Parallelogram(s) => Some(s),
+            Self::Disc(s) => Some(s),
+            Self::Cylinder(s) => Some(s),
             Self::Open(s) => Some(&**s),
         }
     }
@@ -66,6 +72,8 @@ impl Geometry {
             Self::Sphere(s) => s.surface(ray, &at),
             Self::Plane(s) => s.surface(ray, &at),
             Self::Parallelogram(s) => s.surface(ray, &at),
+            Self::Disc(s) => s.surface(ray, &at),
+            Self::Cylinder(s) => s.surface(ray, &at),
             Self::Open(s) => s.surface(ray, &at),
         };
         surface.time = ray.time;
@@ -103,6 +111,8 @@ impl fmt::Debug for Geometry {
             Self::Sphere(s) => s.fmt(f),
             Self::Plane(s) => s.fmt(f),
             Self::Parallelogram(s) => s.fmt(f),
+            Self::Disc(s) => s.fmt(f),
+            Self::Cylinder(s) => s.fmt(f),
             Self::Open(s) => write!(f, "Open({:?})", s.bounds()),
         }
     }
@@ -129,5 +139,17 @@ impl From<Plane> for Geometry {
 impl From<Parallelogram> for Geometry {
     fn from(shape: Parallelogram) -> Self {
         Self::Parallelogram(shape)
+    }
+}
+
+impl From<Disc> for Geometry {
+    fn from(shape: Disc) -> Self {
+        Self::Disc(shape)
+    }
+}
+
+impl From<Cylinder> for Geometry {
+    fn from(shape: Cylinder) -> Self {
+        Self::Cylinder(shape)
     }
 }

@@ -35,5 +35,5 @@ pub use error::{MeshError, ShapeError};
 pub use geometry::Geometry;
 pub use mesh::{AlphaAttributes, MeshReport, TriangleMesh};
 pub use shape::{Shape, ShapeHit, ShapeSample};
-pub use shapes::{Parallelogram, Plane, Sphere};
+pub use shapes::{Cylinder, Disc, Parallelogram, Plane, Sphere};
 pub use surface::{Hit, Surface, return_error};

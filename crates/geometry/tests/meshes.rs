@@ -25,7 +25,7 @@ fn wrong_arrays_are_named() {
     assert!(triangle().with_colors(vec![]).is_err() && triangle().with_tangents(vec![Vec4::X; 4]).is_err());
     assert!(matches!(Sphere::new(Vec3A::ZERO, 0.0), Err(ShapeError::Radius { .. })));
     assert!(matches!(Sphere::new(Vec3A::ZERO, f32::NAN), Err(ShapeError::NotFinite { .. })));
-    assert_eq!(Plane::new(Vec3A::ZERO, Vec3A::ZERO), Err(ShapeError::ZeroNormal));
+    assert_eq!(Plane::new(Vec3A::ZERO, Vec3A::ZERO), Err(ShapeError::ZeroNormal { shape: "plane" }));
     assert_eq!(Parallelogram::new(Vec3A::ZERO, Vec3A::X, Vec3A::X * 3.0), Err(ShapeError::NoArea));
 }
 

@@ -1,11 +1,11 @@
 //! The shapes through their check suite, over random places and sizes.
 
 use etendue_core::Vec3A;
-use etendue_geometry::{Parallelogram, Plane, Shape, Sphere};
+use etendue_geometry::{Cylinder, Disc, Parallelogram, Plane, Shape, Sphere};
 use etendue_testkit::{Budget, check_shape, strategies};
 use proptest::prelude::*;
 
-const CASES: u32 = 48;
+const CASES: u32 = 80;
 
 /// A shape that proptest can print.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +13,8 @@ enum Any {
     Sphere(Sphere),
     Parallelogram(Parallelogram),
     Plane(Plane),
+    Disc(Disc),
+    Cylinder(Cylinder),
 }
 
 impl Any {
@@ -21,6 +23,8 @@ impl Any {
             Self::Sphere(s) => s,
             Self::Parallelogram(s) => s,
             Self::Plane(s) => s,
+            Self::Disc(s) => s,
+            Self::Cylinder(s) => s,
         }
     }
 }
@@ -39,7 +43,18 @@ fn shapes() -> impl Strategy<Value = Any> {
     });
     let plane = (strategies::point(0.5), strategies::direction())
         .prop_filter_map("a normal", |(p, n)| Plane::new(p, n).ok().map(Any::Plane));
-    prop_oneof![sphere, parallelogram, plane]
+    let disc = (strategies::point(50.0), strategies::direction(), size())
+        .prop_filter_map("a disc", |(c, n, r)| Disc::new(c * r, n, r).ok().map(Any::Disc));
+    let cylinder = (strategies::point(50.0), strategies::direction(), 0.1f32..20.0, size(), any::<bool>())
+        .prop_filter_map("a tube", |(p, axis, length, r, ends)| {
+            if ends {
+                Cylinder::new(p * r, (p + axis * length) * r, r).ok().map(Any::Cylinder)
+            } else {
+                // Lines are drawn around the origin.
+                Cylinder::endless(p * 0.01, axis, 0.3).ok().map(Any::Cylinder)
+            }
+        });
+    prop_oneof![sphere, parallelogram, plane, disc, cylinder]
 }
 
 proptest! {

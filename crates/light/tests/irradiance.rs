@@ -5,7 +5,7 @@ mod support;
 use std::sync::Arc;
 
 use etendue_core::{Spectrum, Transform, Vec3A};
-use etendue_geometry::{Parallelogram, Sphere, presets};
+use etendue_geometry::{Cylinder, Disc, Parallelogram, Sphere, presets};
 use etendue_light::{Light, MeshLight, ParallelogramLight, PointLight, ShapeLight, SphereLight};
 use etendue_texture::Tex;
 use support::{Mean, Rng, irradiance, irradiance_of, polygon_irradiance, receiver};
@@ -126,6 +126,50 @@ fn sphere_on_a_plane() {
         let d2 = f64::from(center.dot(center));
         let e = std::f64::consts::PI * f64::from(radius * radius) / d2 * f64::from(center.y) / d2.sqrt();
         irradiance(&light, &at, 300_000, i as u64).check(e, &format!("distance {distance} cos {cos}"));
+    }
+}
+
+/// E = π L r² / (r² + h²) under the middle of a disc, from nearby to far away; nothing from its back.
+#[test]
+fn disc_on_its_axis() {
+    let (axis, foot) = (Vec3A::new(0.36, 0.8, 0.48), Vec3A::new(3.0, -1.0, 2.0));
+    for (i, (h, n)) in
+        [(0.5f32, 4_000_000), (1.0, 1_000_000), (3.0, 300_000), (30.0, 300_000), (3e4, 300_000)]
+            .into_iter()
+            .enumerate()
+    {
+        let r = 0.7f32;
+        let disc = Disc::new(foot + axis * (h * r), -axis, r).expect("a disc");
+        let light = ShapeLight::new(Arc::new(disc), None, ONE, false);
+        // Where rounding has put the centre.
+        let d = disc.center() - foot;
+        let (r2, d2) = (f64::from(r) * f64::from(r), f64::from(d.dot(d)));
+        let e = std::f64::consts::PI * r2 / (r2 + d2);
+        irradiance(&light, &receiver(foot, axis), n, i as u64).check(e, &format!("height {h} r"));
+        let away = Disc::new(disc.center(), axis, r).expect("a disc");
+        let away = ShapeLight::new(Arc::new(away), None, ONE, false);
+        assert_eq!(irradiance(&away, &receiver(foot, axis), 1000, 9).error(), 0.0);
+        let pi = std::f64::consts::PI;
+        assert!((f64::from(light.power(0, 1.0).r()) / (pi * pi * r2) - 1.0).abs() < 1e-6);
+    }
+}
+
+/// In the middle of a tube's end, facing in: all that the other end's disc leaves of π, E = π h² / (r² + h²).
+#[test]
+fn inside_a_tube() {
+    for (i, (r, h)) in [(1.0f32, 1.0f32), (0.5, 2.0), (2.0, 0.5)].into_iter().enumerate() {
+        let tube = Cylinder::new(Vec3A::ZERO, Vec3A::Y * h, r).expect("a tube");
+        let light = ShapeLight::new(Arc::new(tube), None, ONE, true);
+        let (r2, h2) = (f64::from(r * r), f64::from(h * h));
+        let e = std::f64::consts::PI * h2 / (r2 + h2);
+        irradiance(&light, &receiver(Vec3A::ZERO, Vec3A::Y), 1_000_000, i as u64)
+            .check(e, &format!("r {r} h {h}"));
+        let outside = ShapeLight::new(Arc::new(tube), None, ONE, false);
+        assert_eq!(
+            irradiance(&outside, &receiver(Vec3A::ZERO, Vec3A::Y), 1000, 9).error(),
+            0.0,
+            "shines outward"
+        );
     }
 }
 

@@ -166,6 +166,11 @@ fn light_of(
         Geometry::Parallelogram(p) => {
             Arc::new(ParallelogramLight::new(*p, radiance).with_two_sided(two_sided))
         }
+        Geometry::Disc(s) => by_area(Arc::new(*s))?,
+        Geometry::Cylinder(s) if s.length().is_finite() => by_area(Arc::new(*s))?,
+        Geometry::Cylinder(_) => {
+            return Err(cannot("a cylinder without ends has no finite power; give it ends"));
+        }
         Geometry::Plane(_) => {
             return Err(cannot("an infinite plane has no finite power; use a parallelogram"));
         }

@@ -7,7 +7,7 @@ pub(crate) use query::GroupQuery;
 use std::sync::Arc;
 
 use etendue_core::{Aabb, Vec3A};
-use etendue_geometry::{Geometry, Parallelogram, Plane, Shape, Sphere};
+use etendue_geometry::{Cylinder, Disc, Geometry, Parallelogram, Plane, Shape, Sphere};
 
 use crate::build::{Cancel, Costs, Leaves, Stored, build_tree};
 use crate::kernel::{BLOCK, Block, BlockTriangle, Child, Tree};
@@ -19,6 +19,8 @@ enum Solid {
     Sphere(Sphere),
     Plane(Plane),
     Parallelogram(Parallelogram),
+    Disc(Disc),
+    Cylinder(Cylinder),
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -166,6 +168,8 @@ impl Group {
                 Geometry::Sphere(s) => Solid::Sphere(*s),
                 Geometry::Plane(s) => Solid::Plane(*s),
                 Geometry::Parallelogram(s) => Solid::Parallelogram(*s),
+                Geometry::Disc(s) => Solid::Disc(*s),
+                Geometry::Cylinder(s) => Solid::Cylinder(*s),
             };
             let item = SolidItem { geom, solid };
             if manageable(&bounds) {

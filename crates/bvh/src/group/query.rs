@@ -1,6 +1,6 @@
 use etendue_core::Ray;
-use etendue_geometry::Hit;
 use etendue_geometry::triangle::TriangleRay;
+use etendue_geometry::{Hit, Shape};
 
 use super::{Group, OpenItem, Solid, SolidItem};
 use crate::kernel::{BLOCK, Block, BoxRay, FilterRay, Visitor};
@@ -83,8 +83,16 @@ impl ShapeItem for SolidItem {
             Solid::Sphere(s) => offer_shape(s, q.ray, q.inst, self.geom, sink),
             Solid::Plane(s) => offer_shape(s, q.ray, q.inst, self.geom, sink),
             Solid::Parallelogram(s) => offer_shape(s, q.ray, q.inst, self.geom, sink),
+            Solid::Disc(s) => offer_apart(s, q, self.geom, sink),
+            Solid::Cylinder(s) => offer_apart(s, q, self.geom, sink),
         }
     }
+}
+
+/// Out of line, so that the loop over the common shapes keeps its size.
+#[inline(never)]
+fn offer_apart<S: Sink>(shape: &dyn Shape, q: &GroupQuery<'_>, geom: u32, sink: &mut S) -> bool {
+    offer_shape(shape, q.ray, q.inst, geom, sink)
 }
 
 impl ShapeItem for OpenItem {

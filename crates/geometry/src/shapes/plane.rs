@@ -24,7 +24,7 @@ impl Plane {
         if !normal.is_finite() {
             return Err(not_finite("the normal"));
         }
-        let normal = vector::try_normalize(normal).ok_or(ShapeError::ZeroNormal)?;
+        let normal = vector::try_normalize(normal).ok_or(ShapeError::ZeroNormal { shape: "plane" })?;
         Ok(Self { point, normal })
     }
 

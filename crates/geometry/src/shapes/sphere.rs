@@ -30,7 +30,7 @@ impl Sphere {
             return Err(not_finite("the radius"));
         }
         if radius <= 0.0 {
-            return Err(ShapeError::Radius { radius });
+            return Err(ShapeError::Radius { shape: "sphere", radius });
         }
         Ok(Self { center, radius })
     }

@@ -93,7 +93,8 @@ fn point(
 /// What leaves here must not find this place again, on either side.
 fn respawn(shape: &dyn Shape, ray: &Ray, s: &Surface, radius: f32, judge: &mut Judge) -> Result<(), Failure> {
     // Across a convex edge another face may be as near, but it faces elsewhere.
-    let near = 1e-5 * (radius + vector::length(s.p));
+    // A chord as flat as the rays below is met again truly: a ball's is a thousandth of its bounds away.
+    let near = (1e-5 * (radius + vector::length(s.p))).min(1e-3 * radius);
     // Grazing by a thousandth: less, and the surface's own curvature may bring it back.
     let grazing = s.shading.x;
     for d in [ray.d, -ray.d, grazing + s.ng * 1e-3, grazing - s.ng * 1e-3] {
