@@ -14,8 +14,7 @@ use crate::picture::is_film;
 use crate::render::{self, Rendered};
 use crate::session::print;
 
-/// Independent parts of the point set. Two would do for the whole picture; four also tell of each pixel, and cost a
-/// tenth more noise than one.
+/// Independent parts of the point set. Two would do for the whole picture; four also tell of each pixel.
 const REPLICATES: u32 = 4;
 /// The key by which a file of facts is known.
 const RESIDUAL: &str = "residual_relmse";
