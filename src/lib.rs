@@ -23,7 +23,9 @@ pub use etendue_texture as texture;
 /// What most programs use, in one import.
 pub mod prelude {
     pub use etendue_bsdf::{Bsdf, BsdfAt, BsdfSample, Lobes, Mode};
-    pub use etendue_camera::{Camera, CameraSample, Film, Filter, Orthographic, Perspective, Planes};
+    pub use etendue_camera::{
+        Camera, CameraSample, Film, Filter, Orthographic, Panorama, Perspective, Planes,
+    };
     pub use etendue_core::{
         CancelFlag, Frame, Needs, Origin, Progress, Ray, Spectrum, Transform, UVec2, Vec2, Vec3, Vec3A, Vec4,
     };

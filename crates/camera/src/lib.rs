@@ -19,6 +19,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! [`Perspective`] has a pinhole or a thin lens, round or with blades; [`Orthographic`] has parallel rays; [`Panorama`] sees in all
+//! directions.
+//!
 //! Limits: radiance above 2⁴⁰ is refused (and counted); 2²² samples of that size would fill a pixel's sum.
 //! Uses core, sampling and geometry; a scene knows no camera, since it is viewed by many.
 
@@ -27,6 +30,7 @@ mod film;
 mod filter;
 mod fixed;
 mod orthographic;
+mod panorama;
 mod parts;
 mod perspective;
 mod planes;
@@ -37,6 +41,7 @@ pub use film::{Film, FilmError, MergeError};
 pub use filter::{Filter, FilterSample, FilterSampler};
 pub use fixed::LIMIT;
 pub use orthographic::Orthographic;
+pub use panorama::{Panorama, PanoramaMap};
 pub use parts::{FilmParts, FilmView};
 pub use perspective::{CameraError, Perspective};
 pub use planes::{FirstHit, Ids, Planes};

@@ -26,6 +26,16 @@ pub enum CameraError {
         /// Focus distance asked for, metres.
         focus: f32,
     },
+    /// An aperture that is no polygon.
+    #[error(
+        "an aperture of {blades} blades turned by {rotation} is no polygon: it needs 3 blades or more, or none for a disc, and a finite angle"
+    )]
+    Blades {
+        /// Blades asked for.
+        blades: u32,
+        /// Angle asked for, radians.
+        rotation: f32,
+    },
     /// A picture of no size in the world.
     #[error("an extent of {half_width} x {half_height} metres from the middle is not positive and finite")]
     Extent {
@@ -50,6 +60,10 @@ pub struct Perspective {
     half_height: f32,
     lens_radius: f32,
     focus_distance: f32,
+    /// Corners of the aperture; 0 for a disc.
+    blades: u32,
+    /// Of the first corner from +x, turns.
+    rotation: f32,
 }
 
 impl Perspective {
@@ -69,7 +83,15 @@ impl Perspective {
         let [x, y, z, eye] = to_world.columns();
         let to_world =
             Transform::from_columns(vector::normalize(x), vector::normalize(y), vector::normalize(z), eye)?;
-        Ok(Self { to_world, size, half_height, lens_radius: 0.0, focus_distance: 1.0 })
+        Ok(Self {
+            to_world,
+            size,
+            half_height,
+            lens_radius: 0.0,
+            focus_distance: 1.0,
+            blades: 0,
+            rotation: 0.0,
+        })
     }
 
     /// A pinhole camera at `from` that looks at `target`.
@@ -103,6 +125,34 @@ impl Perspective {
         Ok(self)
     }
 
+    /// The same camera with an aperture of straight blades: a regular polygon whose corners lie on the lens's rim, the
+    /// first `rotation` radians from `x` toward `y`. No blades give back the disc. Points out of focus show its shape.
+    ///
+    /// # Errors
+    /// One or two blades, or an angle that is not finite.
+    pub fn with_blades(mut self, blades: u32, rotation: f32) -> Result<Self, CameraError> {
+        if matches!(blades, 1 | 2) || !rotation.is_finite() {
+            return Err(CameraError::Blades { blades, rotation });
+        }
+        self.blades = blades;
+        self.rotation = if blades == 0 { 0.0 } else { rotation / std::f32::consts::TAU };
+        Ok(self)
+    }
+
+    /// A uniform point of the polygon inscribed in the unit disc: a triangle from the middle to one of its sides, and a
+    /// point of it by what is left of the first number.
+    #[inline(never)]
+    fn polygon(&self, u: Vec2) -> Vec2 {
+        let scaled = f64::from(u.x) * f64::from(self.blades);
+        let side = scaled.floor();
+        let weights = warp::triangle(Vec2::new((scaled - side) as f32, u.y));
+        let corner = |i: f64| {
+            let (sin, cos) = math::sin_cos_turns((i / f64::from(self.blades)) as f32 + self.rotation);
+            Vec2::new(cos, sin)
+        };
+        corner(side) * weights.x + corner(side + 1.0) * weights.y
+    }
+
     /// The same camera with another picture size; the vertical field of view stays.
     ///
     /// # Errors
@@ -127,7 +177,7 @@ impl Camera for Perspective {
         let y = (0.5 * self.size.y as f32 - film.y) * pixel;
         let through_pinhole = Vec3A::new(x, y, -1.0);
         let (o, d) = if self.lens_radius > 0.0 {
-            let l = warp::disc(lens) * self.lens_radius;
+            let l = if self.blades == 0 { warp::disc(lens) } else { self.polygon(lens) } * self.lens_radius;
             let o = Vec3A::new(l.x, l.y, 0.0);
             (self.to_world.point(o), through_pinhole * self.focus_distance - o)
         } else {
@@ -147,5 +197,9 @@ impl Camera for Perspective {
         self.to_world.fingerprint(f);
         f.u64(u64::from(self.size.x) << 32 | u64::from(self.size.y));
         f.floats(&[self.half_height, self.lens_radius, self.focus_distance]);
+        if self.blades > 0 {
+            f.u64(u64::from(self.blades));
+            f.f32(self.rotation);
+        }
     }
 }
