@@ -17,7 +17,7 @@
 //!
 //! | light | parts | sampled by |
 //! |---|---|---|
-//! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | 1 | nothing to draw |
+//! | [`PointLight`], [`SpotLight`], [`GoniometricLight`], [`DirectionalLight`] | 1 | nothing to draw |
 //! | [`MeshLight`] | its triangles | solid angle, or area where that is very small or nearly a hemisphere |
 //! | [`ParallelogramLight`] | 1 | solid angle if it is a rectangle, else area |
 //! | [`SphereLight`] | 1 | the cone it fills |
@@ -28,7 +28,7 @@
 //! Where a point uses only one side of its surface ([`Sides::Same`]), lights return no directions from behind it and
 //! report zero density for them; that mass is lost, not moved elsewhere.
 //!
-//! Limits: nothing moves; no measured emission profiles.
+//! Limits: nothing moves.
 //!
 //! Place in the workspace: above `core`, `sampling`, `geometry` and `texture`; scenes hold lights, integrators ask them.
 
@@ -38,7 +38,9 @@ mod constant_environment;
 mod directional;
 mod emitter;
 mod error;
+mod goniometric;
 mod image_environment;
+mod intensity_table;
 mod light;
 mod mesh;
 mod parallelogram;
@@ -56,7 +58,9 @@ mod unpicked;
 pub use constant_environment::ConstantEnvironment;
 pub use directional::DirectionalLight;
 pub use error::EnvironmentError;
+pub use goniometric::GoniometricLight;
 pub use image_environment::ImageEnvironment;
+pub use intensity_table::{IntensityTable, IntensityTableError};
 pub use light::{Light, LightBounds, LightId, LightSample, LitPoint, Sides};
 pub use mesh::MeshLight;
 pub use parallelogram::ParallelogramLight;
