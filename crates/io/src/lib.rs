@@ -3,7 +3,7 @@
 //! Films as `.film` files, which keep every bit, name the samples they hold, and can be added up ([`FilmFile`]);
 //! pictures in ([`read_picture`], [`decode_texture`]) and out.
 //!
-//! Features: `gltf` (glTF 2.0 in), `obj` (OBJ and MTL in), `ply` (PLY meshes in), `png`, `hdr` and `exr` (pictures in and out).
+//! Features: `gltf` (glTF 2.0 in), `obj` (OBJ and MTL in), `ply` (PLY meshes in), `ies` (measured lamps in), `png`, `hdr` and `exr` (pictures in and out).
 //! A file can be wrong in any way and yields an
 //! error that says where and what, or a picture with warnings in its report; it cannot crash the program, make it
 //! take memory that the file merely claims, or read outside the scene's folder. Pictures are written beside the
@@ -42,6 +42,8 @@ mod film;
 pub mod gltf;
 #[cfg(feature = "hdr")]
 mod hdr_out;
+#[cfg(feature = "ies")]
+pub mod ies;
 mod limits;
 mod load;
 mod loaded;
