@@ -17,7 +17,7 @@ pub const DIRECT: [DirectLight; 5] = [
 /// `n` independent samples of the radiance along rays that `ray` makes, mean of the channels.
 pub fn radiance(
     scene: &Scene,
-    integrator: &PathTracer,
+    integrator: &dyn Integrator<Independent>,
     seed: u64,
     n: u64,
     ray: &dyn Fn(&Independent) -> Ray,

@@ -109,6 +109,19 @@ pub trait Bsdf: Send + Sync {
         sum / 16.0
     }
 
+    /// The single directions into which light is scattered: at most one reflected and one transmitted. Each weight is
+    /// that of the whole lobe, `pdf` is 1: nothing has been drawn.
+    ///
+    /// For tracing all of them (Whitted 1980). The default asks [`Bsdf::sample`] with 66 numbers for the lobe, so it finds
+    /// what is drawn with a probability of 1/64 or more, or at either end; a BSDF with rarer ones says them itself.
+    fn delta_lobes(&self, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+        if !self.lobes().contains(Lobes::DELTA) {
+            return [None; 2];
+        }
+        let among = (0..64).map(|i| (i as f32 + 0.5) / 64.0);
+        delta_lobes_among(self, wo, mode, among.chain(ENDS))
+    }
+
     /// `f·|cos θi|` split into diffuse reflected, glossy reflected, diffuse transmitted and glossy transmitted, for
     /// path expressions. The default puts all of it into the class that [`Bsdf::lobes`] and the sides imply.
     fn eval_classes(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> [Spectrum; 4] {
@@ -122,4 +135,25 @@ pub trait Bsdf: Send + Sync {
     /// The form in which the integrator holds it: a built-in returns itself by value, a user's type the one line
     /// `BsdfAt::Ref(self)`.
     fn at(&self) -> BsdfAt<'_>;
+}
+
+/// The least and the greatest number that chooses a lobe.
+pub(crate) const ENDS: [f32; 2] = [0.0, 1.0 - f32::EPSILON / 2.0];
+
+/// [`Bsdf::delta_lobes`] by what a BSDF draws for these choices of a lobe.
+pub(crate) fn delta_lobes_among<B: Bsdf + ?Sized>(
+    bsdf: &B,
+    wo: Vec3A,
+    mode: Mode,
+    choices: impl IntoIterator<Item = f32>,
+) -> [Option<BsdfSample>; 2] {
+    let mut out = [None; 2];
+    for u_lobe in choices {
+        let drawn = bsdf.sample(wo, u_lobe, etendue_core::Vec2::splat(0.5), mode);
+        if let Some(s) = drawn.filter(|s| s.lobe.contains(Lobes::DELTA)) {
+            let at = usize::from(s.lobe.contains(Lobes::TRANSMISSION));
+            out[at] = Some(BsdfSample { weight: s.weight * s.pdf, pdf: 1.0, ..s });
+        }
+    }
+    out
 }

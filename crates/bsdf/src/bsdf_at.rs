@@ -113,6 +113,10 @@ impl Bsdf for BsdfAt<'_> {
         dispatch!(self, b => b.albedo(wo))
     }
 
+    fn delta_lobes(&self, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+        dispatch!(self, b => b.delta_lobes(wo, mode))
+    }
+
     fn eval_classes(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> [Spectrum; 4] {
         dispatch!(self, b => b.eval_classes(wo, wi, mode))
     }

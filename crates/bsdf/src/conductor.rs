@@ -1,5 +1,6 @@
 use etendue_core::{Spectrum, Vec2, Vec3A, vector};
 
+use crate::bsdf::delta_lobes_among;
 use crate::mirror::reflect_about_z;
 use crate::{Bsdf, BsdfAt, BsdfSample, Ggx, Lobes, Masking, MetalFresnel, Mode};
 
@@ -98,6 +99,10 @@ impl Bsdf for Conductor {
         let f = self.fresnel.reflectance(wo.dot(m)) * (d * self.ggx.reflection_term(self.masking, wo, wi));
         let pdf = d * self.ggx.reflecting_term(wo);
         if f.is_finite() && pdf.is_finite() { (f, pdf) } else { (Spectrum::BLACK, 0.0) }
+    }
+
+    fn delta_lobes(&self, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+        if self.ggx.is_smooth() { delta_lobes_among(self, wo, mode, [0.0]) } else { [None; 2] }
     }
 
     fn at(&self) -> BsdfAt<'_> {

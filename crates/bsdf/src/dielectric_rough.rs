@@ -1,5 +1,6 @@
 use etendue_core::{Spectrum, Vec2, Vec3A, vector};
 
+use crate::bsdf::{ENDS, delta_lobes_among};
 use crate::conductor::upper;
 use crate::fresnel::{Interface, relative_eta};
 use crate::{Bsdf, BsdfAt, BsdfSample, Ggx, Lobes, Masking, Mode, SmoothDielectric};
@@ -172,6 +173,10 @@ impl Bsdf for RoughDielectric {
             }
             _ => (Spectrum::BLACK, 0.0),
         }
+    }
+
+    fn delta_lobes(&self, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+        if self.is_delta() { delta_lobes_among(self, wo, mode, ENDS) } else { [None; 2] }
     }
 
     fn at(&self) -> BsdfAt<'_> {

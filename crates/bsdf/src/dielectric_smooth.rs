@@ -1,5 +1,6 @@
 use etendue_core::{Spectrum, Vec2, Vec3A};
 
+use crate::bsdf::{ENDS, delta_lobes_among};
 use crate::fresnel::{Interface, relative_eta};
 use crate::mirror::reflect_about_z;
 use crate::{Bsdf, BsdfAt, BsdfSample, Lobes, Mode};
@@ -72,6 +73,10 @@ impl Bsdf for SmoothDielectric {
         }
         let reflectance = Interface::from_cos(wo.z, relative_eta(self.eta, wo.z)).reflectance as f32;
         self.tint.lerp(Spectrum::ONE, if reflectance >= 0.0 { reflectance } else { 0.0 })
+    }
+
+    fn delta_lobes(&self, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+        delta_lobes_among(self, wo, mode, ENDS)
     }
 
     fn at(&self) -> BsdfAt<'_> {

@@ -1,5 +1,6 @@
 use etendue_core::{Spectrum, Vec2, Vec3A, vector};
 
+use crate::bsdf::{ENDS, delta_lobes_among};
 use crate::conductor::upper;
 use crate::fresnel::{Interface, relative_eta};
 use crate::mirror::reflect_about_z;
@@ -118,6 +119,10 @@ impl Bsdf for ThinDielectric {
         let f = share * (d * self.ggx.reflection_term(self.masking, o, i));
         let pdf = chosen * d * self.ggx.reflecting_term(o);
         if f.is_finite() && pdf.is_finite() { (f, pdf) } else { (Spectrum::BLACK, 0.0) }
+    }
+
+    fn delta_lobes(&self, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+        if self.ggx.is_smooth() { delta_lobes_among(self, wo, mode, ENDS) } else { [None; 2] }
     }
 
     fn at(&self) -> BsdfAt<'_> {

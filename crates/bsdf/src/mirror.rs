@@ -1,5 +1,6 @@
 use etendue_core::{Spectrum, Vec2, Vec3A};
 
+use crate::bsdf::delta_lobes_among;
 use crate::{Bsdf, BsdfAt, BsdfSample, Lobes, Mode};
 
 /// A perfect mirror of constant reflectance, on either side.
@@ -48,6 +49,10 @@ impl Bsdf for Mirror {
 
     fn albedo(&self, _wo: Vec3A) -> Spectrum {
         self.reflectance
+    }
+
+    fn delta_lobes(&self, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+        delta_lobes_among(self, wo, mode, [0.0])
     }
 
     fn at(&self) -> BsdfAt<'_> {

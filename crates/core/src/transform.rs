@@ -185,6 +185,14 @@ impl Transform {
         (self.point(p), carried * (1.0 + gamma(3)) + rounding)
     }
 
+    /// World area over object area where the object's unit normal is `n`: the length of the cofactor matrix times `n`.
+    pub fn area_scale(&self, n: Vec3A) -> f64 {
+        let d = |v: Vec3A| DVec3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z));
+        let (x, y, z, n) = (d(self.linear.x_axis), d(self.linear.y_axis), d(self.linear.z_axis), d(n));
+        let v = y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z;
+        v.dot(v).sqrt()
+    }
+
     /// A unit normal to a unit normal, by the transposed inverse. A front face stays a front face under a mirror:
     /// the winding flips with the space, and the normal follows the winding.
     #[inline]

@@ -31,18 +31,32 @@
 //!
 //! Limits: surfaces in a vacuum; no media yet. Uses core, sampling, geometry, bsdf, light, camera and scene.
 
+mod ambient_occlusion;
+mod area_form;
+mod arrival;
 mod context;
+mod first_surface;
+mod inside;
 mod integrator;
+mod lights;
 mod options;
 mod path;
+mod ray_caster;
 mod recorder;
 mod render;
 mod report;
+mod shaded;
+mod whitted;
 
+pub use ambient_occlusion::AmbientOcclusion;
+pub use area_form::{AreaError, AreaForm};
 pub use context::{Context, Counts};
+pub use first_surface::{FirstSurface, Show};
 pub use integrator::{Integrator, Sample};
 pub use options::{RenderError, RenderOptions};
-pub use path::{DirectLight, PathTracer, Roulette};
+pub use path::{Branching, DirectLight, PathTracer, Roulette};
+pub use ray_caster::RayCaster;
 pub use recorder::{Contribution, ContributionKind, FirstHitRecorder, Recorder, Vertex};
 pub use render::{Replay, render, replay, stream_of};
 pub use report::{Ended, Rejected, Report};
+pub use whitted::Whitted;

@@ -63,15 +63,9 @@ impl ShapeLight {
         if count == 0 { 0.0 } else { object * sum / f64::from(count) }
     }
 
-    /// World area over object area where the object normal is `n`: the length of the cofactor matrix times `n`.
+    /// World area over object area where the object normal is `n`.
     fn stretch(&self, n: Vec3A) -> f64 {
-        let Some(m) = &self.to_world else {
-            return 1.0;
-        };
-        let [x, y, z, _] = m.columns().map(wide);
-        let n = wide(n);
-        let v = y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z;
-        v.dot(v).sqrt()
+        self.to_world.as_ref().map_or(1.0, |m| m.area_scale(n))
     }
 
     /// The same for a world normal.

@@ -4,7 +4,7 @@ use etendue_bvh::{Accel, World};
 use etendue_core::{Aabb, Fingerprint, Needs, Ray, Segment, Spectrum, Vec2, Vec3A};
 use etendue_geometry::{Hit, Surface};
 use etendue_light::{Light, LightId, LightPicker, LightSample, LitPoint};
-use etendue_material::Material;
+use etendue_material::{AlphaPoint, Material};
 
 use crate::SceneReport;
 use crate::cutout::CutoutFilter;
@@ -129,16 +129,21 @@ impl Scene {
         s
     }
 
+    /// Whether anything stands in a ray's way. `cutout_bits` as in [`Scene::intersect`].
+    #[inline]
+    pub fn occluded(&self, ray: &Ray, cutout_bits: u32) -> bool {
+        match self.cutout_filter(cutout_bits) {
+            None => self.parts.accel.occluded(ray),
+            Some(filter) => self.parts.accel.occluded_filtered(ray, 0, &filter),
+        }
+    }
+
     /// The fraction of light that gets from one end to the other: 0 or 1 until there are media. `cutout_bits` as in
     /// [`Scene::intersect`].
     #[inline]
     pub fn transmittance(&self, segment: &Segment, cutout_bits: u32) -> Spectrum {
         let Some(ray) = segment.ray() else { return Spectrum::BLACK };
-        let blocked = match self.cutout_filter(cutout_bits) {
-            None => self.parts.accel.occluded(&ray),
-            Some(filter) => self.parts.accel.occluded_filtered(&ray, 0, &filter),
-        };
-        if blocked { Spectrum::BLACK } else { Spectrum::ONE }
+        if self.occluded(&ray, cutout_bits) { Spectrum::BLACK } else { Spectrum::ONE }
     }
 
     /// The material of a surface of this scene; `None` for a surface of another.
@@ -146,6 +151,15 @@ impl Scene {
     pub fn material(&self, surface: &Surface) -> Option<&dyn Material> {
         let m = *self.parts.geom_materials.get(surface.geom as usize)?;
         self.parts.materials.get(m as usize).map(|m| &**m)
+    }
+
+    /// How much of a surface is there, in `[0, 1]`: 1 where nothing is cut out.
+    pub fn opacity(&self, surface: &Surface) -> f32 {
+        if !self.parts.cut.get(surface.geom as usize).is_some_and(|&cut| cut) {
+            return 1.0;
+        }
+        let Surface { uv, p, color, ref fetches, .. } = *surface;
+        self.material(surface).map_or(1.0, |m| m.opacity(&AlphaPoint { uv, p, color, fetches }))
     }
 
     /// The body behind a surface; `None` where transmitted light enters none (see [`Material::absorption`]).
@@ -187,11 +201,18 @@ impl Scene {
     #[inline]
     pub fn sample_light(&self, at: &LitPoint, u: Vec2) -> Option<LightDraw> {
         let pick = self.parts.picker.as_ref()?.pick(at, u.x)?;
-        let light = self.parts.emitters.lights.get(pick.id.light as usize)?;
-        let mut sample = light.sample(at, pick.id.part, Vec2::new(pick.u, u.y))?;
-        sample.pdf *= pick.pmf;
-        let only_way = sample.is_delta || !self.parts.emitters.found_by_rays[pick.id.light as usize];
-        (sample.pdf > 0.0 && !sample.li.is_black()).then_some(LightDraw { id: pick.id, sample, only_way })
+        let mut draw = self.sample_part(at, pick.id, Vec2::new(pick.u, u.y))?;
+        draw.sample.pdf *= pick.pmf;
+        (draw.sample.pdf > 0.0).then_some(draw)
+    }
+
+    /// Draws a direction toward one part of one light, with the light's own density.
+    #[inline]
+    pub fn sample_part(&self, at: &LitPoint, id: LightId, u: Vec2) -> Option<LightDraw> {
+        let light = self.parts.emitters.lights.get(id.light as usize)?;
+        let sample = light.sample(at, id.part, u)?;
+        let only_way = sample.is_delta || !self.parts.emitters.found_by_rays[id.light as usize];
+        (sample.pdf > 0.0 && !sample.li.is_black()).then_some(LightDraw { id, sample, only_way })
     }
 
     /// The density with which [`Scene::sample_light`] draws `wi` toward this light, sr⁻¹. `seen` is the point of the

@@ -150,7 +150,7 @@ fn integrators() -> Vec<Case<'static>> {
     let mut out = Vec::new();
     for direct in [DirectLight::Light, DirectLight::Bsdf, DirectLight::MisBalance, DirectLight::MisPower] {
         for roulette in [Roulette::Off, Roulette::Throughput { from: 1 }] {
-            let own = PathTracer { direct, roulette, max_depth: Some(5) };
+            let own = PathTracer { direct, roulette, max_depth: Some(5), ..PathTracer::default() };
             let reference =
                 PathTracer { max_depth: Some(5), roulette: Roulette::Off, ..PathTracer::default() };
             let scene = scene(direct != DirectLight::Light);

@@ -315,6 +315,18 @@ impl Bsdf for Principled {
         out
     }
 
+    /// Both said outright: what is let through may be drawn too rarely to be found by asking.
+    #[inline(never)]
+    fn delta_lobes(&self, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+        let Some(at) = self.outgoing(wo) else { return [None; 2] };
+        let through = if at.p_clear > 0.0 { self.clear().delta_lobes(wo, mode)[1] } else { None };
+        let mirrors = self.mirrored(&at, wo, mode).filter(|s| s.pdf > 0.0 && s.weight.is_finite());
+        [
+            mirrors.map(|s| BsdfSample { weight: s.weight * s.pdf, pdf: 1.0, ..s }),
+            through.map(|s| BsdfSample { weight: s.weight * at.clear, ..s }),
+        ]
+    }
+
     fn at(&self) -> BsdfAt<'_> {
         BsdfAt::Principled(*self)
     }

@@ -5,17 +5,9 @@ use etendue_light::{LightId, LitPoint};
 use etendue_sampling::{Dim, Sampler, Slot, mis};
 use etendue_scene::{LightDraw, Scene};
 
+use super::leg::Scattered;
 use super::{DirectLight, PathTracer};
 use crate::{Context, Contribution, ContributionKind, Recorder, Sample};
-
-/// What the last scattering event left for weighing emission that the next ray finds.
-#[derive(Clone, Copy)]
-pub(super) struct Scattered {
-    pub(super) at: LitPoint,
-    pub(super) pdf: f32,
-    /// Light sampling could not have found it: a delta lobe, or the camera itself.
-    pub(super) only_way: bool,
-}
 
 impl PathTracer {
     fn weigh(&self, cx: &Context<'_>, p: f32, other: f32) -> f32 {
@@ -158,7 +150,7 @@ impl PathTracer {
 }
 
 /// Random bits for partly opaque surfaces along a path's ray, or along its shadow ray.
-pub(super) fn cutout_bits<S: Sampler>(
+pub(crate) fn cutout_bits<S: Sampler>(
     cx: &Context<'_>,
     needs: Needs,
     u: &S,

@@ -1,10 +1,16 @@
+mod branching;
 mod direct;
-mod inside;
+mod leg;
+mod roulette;
 mod walk;
 
 use etendue_camera::CameraSample;
 use etendue_core::Fingerprint;
 use etendue_sampling::Sampler;
+
+pub use branching::Branching;
+pub(crate) use direct::cutout_bits;
+pub use roulette::Roulette;
 
 use crate::{Context, Integrator, Recorder, Sample};
 
@@ -24,19 +30,6 @@ pub enum DirectLight {
     MisPower,
 }
 
-/// When paths are ended early, survivors carrying their weight: unbiased.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Roulette {
-    /// As below, but only past 256 scattering events, where a path could otherwise go on for ever.
-    Off,
-    /// A path of at least `from` scattering events goes on with the probability of its largest throughput channel
-    /// (radiance scaling by refraction taken out), at least 5 %.
-    Throughput {
-        /// Scattering events that are always allowed.
-        from: u32,
-    },
-}
-
 /// Unidirectional path tracing (Kajiya 1986) with next-event estimation and multiple importance sampling.
 ///
 /// Paths have no depth limit unless one is set; a limit is bias and is named so. Past 256 scattering events a path
@@ -44,17 +37,47 @@ pub enum Roulette {
 /// mirrors ends too; survivors carry the weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathTracer {
-    /// Most scattering events on a path: 0 shows emitters only, 1 adds direct light. `None` is unlimited.
+    /// Most scattering events on a path: 0 shows emitters only, 1 adds direct light. `None` is unlimited. Bias.
     pub max_depth: Option<u32>,
+    /// Paths whose throughput's largest channel falls below this are dropped; 0 drops none. Bias: for comparing with
+    /// [`Roulette`], which does the same without.
+    pub threshold: f32,
     /// How direct light is found.
     pub direct: DirectLight,
     /// When paths end early.
     pub roulette: Roulette,
+    /// How many ways paths go on.
+    pub branching: Branching,
 }
 
 impl Default for PathTracer {
     fn default() -> Self {
-        Self { max_depth: None, direct: DirectLight::default(), roulette: Roulette::Throughput { from: 3 } }
+        Self {
+            max_depth: None,
+            threshold: 0.0,
+            direct: DirectLight::default(),
+            roulette: Roulette::Throughput { from: 3 },
+            branching: Branching::NONE,
+        }
+    }
+}
+
+impl PathTracer {
+    /// Light that scatters once at most, all of it: what is left out is named as a limit of depth.
+    pub fn direct_only() -> Self {
+        Self { max_depth: Some(1), ..Self::default() }
+    }
+
+    /// Reflected radiance by directions alone: L(x → Θ) = L_e + ∫ L(x ← Ψ) f cos θ dω over the sphere (Kajiya 1986;
+    /// Immel et al. 1986), Ψ drawn from the BSDF. Light is found where a path happens to meet it.
+    pub fn hemisphere_form() -> Self {
+        Self { direct: DirectLight::None, ..Self::default() }
+    }
+
+    /// Reflected radiance in two parts: L_d over the lights, L_i over directions in which no emission counts, since L_d has
+    /// it. After a delta lobe, for which no light can be drawn, it counts: nothing twice and nothing lost.
+    pub fn split_form() -> Self {
+        Self { direct: DirectLight::Light, ..Self::default() }
     }
 }
 
@@ -71,6 +94,9 @@ impl<S: Sampler> Integrator<S> for PathTracer {
         let mut out = Vec::new();
         if let Some(m) = self.max_depth {
             out.push(format!("max_depth={m}: longer paths are cut off"));
+        }
+        if self.threshold > 0.0 {
+            out.push(format!("threshold={}: paths that carry less are cut off", self.threshold));
         }
         if self.direct == DirectLight::None {
             out.push("direct=none: point lights are not seen".into());

@@ -1,9 +1,11 @@
+mod delta;
 mod exchange;
 
 use etendue_bsdf::{Bsdf, BsdfSample, Lobes, Mode};
 use etendue_core::{Spectrum, Vec2, Vec3A, vector};
 use etendue_sampling::Moments;
 
+use delta::delta_lobes;
 use exchange::exchange;
 
 use crate::budget::{Budget, EXTREMES, Failure, Judge, Outcome, Random};
@@ -29,6 +31,7 @@ const TESTS: usize = 5;
 ///   1, so no energy is made;
 /// * exchanging the directions exchanges the modes (Veach 1997, equation 5.14), for delta lobes too, and leaves
 ///   reflection alone where [`Lobes::RECIPROCAL`] is declared;
+/// * `delta_lobes` names the single directions that are drawn, with all their light;
 /// * `eval_pdf`, `scatter` and `eval_classes` say what the plain calls say; extreme random numbers, grazing directions
 ///   and directions that are none stay finite.
 ///
@@ -63,6 +66,7 @@ pub fn check_bsdf_up_to(bsdf: &dyn Bsdf, most: f64, budget: &Budget) -> Outcome 
         let sin = (1.0 - f64::from(cos) * f64::from(cos)).sqrt();
         let wo = Vec3A::new((sin * phi.cos()) as f32, (sin * phi.sin()) as f32, cos);
         for mode in MODES {
+            delta_lobes(bsdf, wo, mode, &mut judge)?;
             density(bsdf, wo, mode, most, budget, &mut random, &mut judge).map_err(|f| Failure {
                 what: format!("{}; wo = {wo} (direction {i}), {mode:?}", f.what),
                 ..f

@@ -43,6 +43,10 @@ enum Wrong {
     Lobe(f32),
     /// `eval_pdf` says something else.
     Fused(f32),
+    /// Names the mirrored direction, but not the refracted one.
+    HalfNamed,
+    /// The light of a single direction named 1 % too large.
+    Named(f32),
     /// Not a number at grazing angles.
     Nan,
     /// Not quite unit.
@@ -138,6 +142,15 @@ impl<B: Bsdf> Bsdf for Mutant<B> {
         if let Wrong::Fused(f) = self.wrong { (both.0 * f, both.1) } else { both }
     }
 
+    fn delta_lobes(&self, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+        let [mirrored, refracted] = delta_lobes_drawn(self, wo, mode);
+        match self.wrong {
+            Wrong::HalfNamed => [mirrored, None],
+            Wrong::Named(f) => [mirrored.map(|s| BsdfSample { weight: s.weight * f, ..s }), refracted],
+            _ => [mirrored, refracted],
+        }
+    }
+
     fn albedo(&self, wo: Vec3A) -> Spectrum {
         self.right.albedo(wo)
     }
@@ -145,6 +158,19 @@ impl<B: Bsdf> Bsdf for Mutant<B> {
     fn at(&self) -> BsdfAt<'_> {
         BsdfAt::Ref(self)
     }
+}
+
+/// By asking for both ends of the choice.
+fn delta_lobes_drawn(bsdf: &dyn Bsdf, wo: Vec3A, mode: Mode) -> [Option<BsdfSample>; 2] {
+    let mut out = [None; 2];
+    for u_lobe in [0.0, 1.0 - f32::EPSILON] {
+        let drawn = bsdf.sample(wo, u_lobe, Vec2::splat(0.5), mode);
+        if let Some(s) = drawn.filter(|s| s.lobe.contains(Lobes::DELTA)) {
+            let at = usize::from(s.lobe.contains(Lobes::TRANSMISSION));
+            out[at] = Some(BsdfSample { weight: s.weight * s.pdf, pdf: 1.0, ..s });
+        }
+    }
+    out
 }
 
 /// Says the density of another surface, the weight to match.
@@ -244,6 +270,8 @@ pub(crate) fn mutants() -> Vec<Case<'static>> {
         case("glass: weight 1 % too small", glass(0.1), Wrong::Weight(0.99)),
         case("white mirror: weight 1 % too large", Mirror::new(Spectrum::ONE), Wrong::Weight(1.01)),
         case("clear glass: weight 1 % too large", clear, Wrong::Weight(1.01)),
+        case("clear glass: the refracted direction is not named", clear, Wrong::HalfNamed),
+        case("clear glass: a named direction 1 % too bright", clear, Wrong::Named(1.01)),
         case("lambert: no cosine", lambert, Wrong::NoCosine),
         case("gold: no cosine", gold(0.3), Wrong::NoCosine),
         case("clear glass: modes exchanged", clear, Wrong::ModesSwapped),

@@ -1,5 +1,7 @@
-use etendue_core::{Spectrum, math};
+use etendue_core::{Needs, Spectrum, Vec3A, math, vector};
 use etendue_scene::Body;
+
+use crate::shaded::Shaded;
 
 /// Bodies that a path can be in at once; more are not kept apart.
 const DEEPEST: usize = 8;
@@ -10,7 +12,7 @@ const DEEPEST: usize = 8;
 /// its material. In nested bodies the one entered last absorbs. A path that starts inside of a body does not know it.
 /// Past [`DEEPEST`] the innermost entry is replaced.
 #[derive(Clone, Copy)]
-pub(super) struct Inside {
+pub(crate) struct Inside {
     /// Material and absorption, m⁻¹.
     bodies: [(u32, Spectrum); DEEPEST],
     count: usize,
@@ -18,13 +20,19 @@ pub(super) struct Inside {
 
 impl Inside {
     /// Outside of everything.
-    pub(super) fn nothing() -> Self {
+    pub(crate) fn nothing() -> Self {
         Self { bodies: [(0, Spectrum::BLACK); DEEPEST], count: 0 }
+    }
+
+    /// The same for a scene; `None` where no body absorbs.
+    #[inline(always)]
+    pub(crate) fn of(needs: Needs) -> Option<Self> {
+        needs.contains(Needs::ABSORPTION).then(Self::nothing)
     }
 
     /// What is left of light after `distance` metres here; infinitely far, only what is not absorbed at all.
     #[inline]
-    pub(super) fn transmittance(&self, distance: f32) -> Spectrum {
+    pub(crate) fn transmittance(&self, distance: f32) -> Spectrum {
         let Some((_, sigma)) = self.count.checked_sub(1).map(|i| self.bodies[i]) else {
             return Spectrum::ONE;
         };
@@ -35,12 +43,25 @@ impl Inside {
     /// surface's normal.
     #[inline]
     #[must_use]
-    pub(super) fn beyond(self, body: Body, wo_ng: f32, wi_ng: f32) -> Self {
+    pub(crate) fn beyond(self, body: Body, wo_ng: f32, wi_ng: f32) -> Self {
         if (wo_ng >= 0.0) == (wi_ng >= 0.0) {
             self
         } else {
             self.across(body.material, body.absorption, wi_ng < 0.0)
         }
+    }
+
+    /// What is left of light that comes to a surface, which bounds `body`, from `end` along `wi`; `None` is infinitely far.
+    pub(crate) fn on_the_way(
+        &self,
+        here: &Shaded<'_>,
+        body: Option<Body>,
+        wi: Vec3A,
+        end: Option<Vec3A>,
+    ) -> Spectrum {
+        let ng = here.surface.ng;
+        let there = body.map_or(*self, |b| self.beyond(b, here.wo.dot(ng), wi.dot(ng)));
+        there.transmittance(end.map_or(f32::INFINITY, |p| vector::length(p - here.surface.p)))
     }
 
     /// On the other side of a surface of `material`, which bounds a body that absorbs `sigma`; `inward` is to its back.

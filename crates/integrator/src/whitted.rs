@@ -1,0 +1,158 @@
+use etendue_bsdf::{Bsdf, BsdfSample, Lobes, Mode};
+use etendue_camera::CameraSample;
+use etendue_core::{Fingerprint, Ray, Spectrum, vector};
+use etendue_sampling::{Dim, Sampler, Slot};
+
+use crate::arrival::{Cone, add_emission, follow};
+use crate::inside::Inside;
+use crate::lights::Receiver;
+use crate::path::Roulette;
+use crate::shaded::{Shaded, bsdf_at};
+use crate::{Context, Integrator, Recorder, Sample};
+
+/// Rays that carry less are left to chance, so that a tree of reflections and refractions stays as wide as 1/FAINT.
+const FAINT: f32 = 1.0 / 64.0;
+
+/// Whitted's ray tracing (1980): at every surface a ray to each light, and *both* the reflected and the refracted ray where the
+/// surface has them. Nothing is drawn but points on lights that have an extent, and faint rays, which roulette ends.
+///
+/// Biased: light that matte and glossy surfaces send to each other is left out; what it holds is L(D|G)?S*E. In a scene of
+/// mirrors and clear glass nothing is missing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Whitted {
+    /// Most reflections and refractions in a row. `None` is unlimited. Bias.
+    pub max_depth: Option<u32>,
+    /// Rays whose largest channel carries less are dropped; 0 drops none. Bias.
+    pub threshold: f32,
+    /// As for [`RayCaster`](crate::RayCaster).
+    pub each_light: u32,
+}
+
+impl Default for Whitted {
+    fn default() -> Self {
+        Self { max_depth: None, threshold: 0.0, each_light: 16 }
+    }
+}
+
+/// A ray of the tree that has not been followed yet.
+#[derive(Clone, Copy)]
+struct Waiting<S> {
+    ray: Ray,
+    beta: Spectrum,
+    /// As in the path tracer: refraction scales radiance, which says nothing about how much a ray is worth.
+    eta_scale: f32,
+    depth: u32,
+    cone: Cone,
+    inside: Option<Inside>,
+    u: S,
+}
+
+impl Whitted {
+    fn trace<S: Sampler, R: Recorder + ?Sized>(
+        &self,
+        cx: &Context<'_>,
+        s: &CameraSample,
+        u: S,
+        rec: &mut R,
+    ) -> Sample {
+        let mut out = Sample::default();
+        let cone = Cone { length: 0.0, spread: s.spread };
+        let (beta, inside) = (Spectrum::ONE, Inside::of(cx.scene.needs()));
+        // Depth first: the list is never longer than the tree is deep.
+        let mut waiting = vec![Waiting { ray: s.ray, beta, eta_scale: 1.0, depth: 0, cone, inside, u }];
+        while let Some(mut w) = waiting.pop() {
+            let beyond = w.inside.map_or(w.beta, |i| w.beta * i.transmittance(f32::INFINITY));
+            let Some(mut hit) = follow(cx, &w.ray, w.depth, w.cone, beyond, &w.u, &mut out, rec) else {
+                continue;
+            };
+            if let Some(inside) = &w.inside {
+                w.beta *= inside.transmittance(hit.distance);
+            }
+            w.cone = w.cone.after(hit.distance);
+            let wo = -w.ray.d;
+            add_emission(cx, &hit.surface, wo, w.depth, w.beta, &mut out, rec);
+            let Some(bsdf) = bsdf_at(cx, &mut hit.surface) else { continue };
+            let here = Shaded::new(&hit.surface, &bsdf, wo);
+            rec.vertex(&here.vertex(w.depth, hit.distance, w.beta));
+            if self.max_depth.is_some_and(|m| w.depth >= m) {
+                continue;
+            }
+            let Waiting { depth, beta, inside, u, .. } = w;
+            Receiver { here: &here, depth, beta, inside, u, shadows: true }.all_or_one(
+                cx,
+                self.each_light,
+                &mut out,
+                rec,
+            );
+            let lobes = here.bsdf.delta_lobes(here.frame.to_local(wo), Mode::Radiance);
+            for (nth, sample) in lobes.into_iter().flatten().enumerate() {
+                let u = if nth == 0 { w.u } else { w.u.fork(w.depth) };
+                waiting.extend(self.onward(cx, &here, &Waiting { u, ..w }, &sample));
+            }
+        }
+        out
+    }
+
+    /// The ray into one of the single directions; `None` if it is not followed.
+    fn onward<S: Sampler>(
+        &self,
+        cx: &Context<'_>,
+        here: &Shaded<'_>,
+        w: &Waiting<S>,
+        sample: &BsdfSample,
+    ) -> Option<Waiting<S>> {
+        let wi = here.frame.to_world(sample.wi);
+        let mut beta = w.beta * sample.weight;
+        if beta.is_black() || !beta.is_finite() || !here.agrees(wi) {
+            return None;
+        }
+        let (mut inside, mut eta_scale) = (w.inside, w.eta_scale);
+        if sample.lobe.contains(Lobes::TRANSMISSION) {
+            eta_scale *= sample.eta * sample.eta;
+            if let (Some(i), Some(body)) = (&mut inside, cx.scene.body(here.surface)) {
+                *i = i.beyond(body, here.wo.dot(here.surface.ng), wi.dot(here.surface.ng));
+            }
+        }
+        let carried = beta.max_channel() * eta_scale;
+        if carried < self.threshold {
+            return None;
+        }
+        let survival =
+            Roulette::Throughput { from: 0 }.survival(w.depth + 1, carried / FAINT, || Spectrum::ONE);
+        if survival < 1.0 {
+            cx.count(|c| c.draws_roulette += 1);
+            if w.u.get_1d(Dim::bounce(w.depth, Slot::Roulette)) >= survival {
+                cx.count(|c| c.roulette_ends += 1);
+                return None;
+            }
+            beta = beta / survival;
+        }
+        cx.count(|c| c.scatter_rays += 1);
+        let ray = here.surface.origin().ray(vector::normalize(wi), here.surface.time);
+        Some(Waiting { ray, beta, eta_scale, depth: w.depth + 1, inside, ..*w })
+    }
+}
+
+impl<S: Sampler> Integrator<S> for Whitted {
+    fn li(&self, cx: &Context<'_>, s: &CameraSample, u: S, rec: &mut dyn Recorder) -> Sample {
+        self.trace(cx, s, u, rec)
+    }
+
+    fn li_plain(&self, cx: &Context<'_>, s: &CameraSample, u: S) -> Sample {
+        self.trace(cx, s, u, &mut ())
+    }
+
+    fn bias(&self) -> Vec<String> {
+        let mut out = vec!["whitted: light between surfaces that are no mirrors is left out".to_owned()];
+        out.extend(self.max_depth.map(|m| format!("max_depth={m}: longer paths are cut off")));
+        if self.threshold > 0.0 {
+            out.push(format!("threshold={}: rays that carry less are cut off", self.threshold));
+        }
+        out
+    }
+
+    fn fingerprint(&self, f: &mut Fingerprint) {
+        f.tag("whitted");
+        f.tag(&format!("{self:?}"));
+    }
+}
