@@ -2,7 +2,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::method::{IntegratorChoice, MethodArgs, SamplerName};
+use super::integrator::{IntegratorChoice, WORDS};
+use super::method::{MethodArgs, SamplerName};
 use super::values;
 use super::view::ViewArgs;
 
@@ -11,8 +12,7 @@ pub(crate) struct BenchArgs {
     /// Scenes: .gltf .glb .obj .ply, or builtin:NAME
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
-    /// Integrators, separated by commas: path or direct, with :light=none|lights|bsdf|balance|power, :depth=N, :roulette=off|N
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "path")]
+    #[arg(long, help = format!("Integrators, separated by commas: {WORDS}"), value_name = "LIST", value_delimiter = ',', default_value = "path")]
     pub(crate) integrator: Vec<IntegratorChoice>,
     /// Samplers, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', default_value = "sobol")]

@@ -1,4 +1,5 @@
 mod bench;
+mod integrator;
 mod method;
 mod render;
 mod values;
@@ -9,7 +10,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use bench::{BenchArgs, ReferenceArgs};
-pub(crate) use method::{IntegratorChoice, MethodArgs, SamplerName};
+pub(crate) use integrator::{IntegratorChoice, Method, Ready};
+pub(crate) use method::{MethodArgs, SamplerName};
 pub(crate) use render::{Aov, RenderArgs, Tone};
 pub(crate) use values::Threads;
 pub(crate) use view::{Materials, ViewArgs};

@@ -2,7 +2,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::method::{IntegratorChoice, MethodArgs, SamplerName};
+use super::integrator::{IntegratorChoice, WORDS};
+use super::method::{MethodArgs, SamplerName};
 use super::values::{self, Shard};
 use super::view::ViewArgs;
 
@@ -22,8 +23,7 @@ pub(crate) struct RenderArgs {
     pub(crate) view: ViewArgs,
     #[command(flatten)]
     pub(crate) method: MethodArgs,
-    /// How light is followed: path (all light) or direct (light that scatters once); see 'etendue bench' for more
-    #[arg(long, value_name = "NAME", default_value = "path")]
+    #[arg(long, help = format!("How light is followed: {WORDS}"), value_name = "NAME", default_value = "path")]
     pub(crate) integrator: IntegratorChoice,
     /// Where the random numbers come from
     #[arg(long, value_enum, default_value_t = SamplerName::Sobol)]

@@ -1,9 +1,8 @@
 use etendue::camera::Filter;
-use etendue::integrator::PathTracer;
 use etendue::measure::{Contender, Estimator, RenderRun};
 use etendue::sampling::{Independent, Sampler, Sobol, Stratified};
 
-use crate::args::{BenchArgs, SamplerName};
+use crate::args::{BenchArgs, Method, Ready, SamplerName};
 use crate::error::CliError;
 use crate::prepare::Built;
 use crate::session::Interrupt;
@@ -11,7 +10,7 @@ use crate::session::Interrupt;
 /// One combination of the flags.
 pub(super) struct Entry {
     pub(super) name: String,
-    pub(super) tracer: PathTracer,
+    pub(super) method: Method,
     sampler: SamplerName,
     /// Seed of its first run; the others follow.
     seed: u64,
@@ -29,7 +28,7 @@ pub(super) fn entries(args: &BenchArgs) -> Vec<Entry> {
             }
             out.push(Entry {
                 name,
-                tracer: integrator.tracer(args.method.max_depth),
+                method: integrator.method.limited(args.method.max_depth),
                 sampler,
                 seed: args.method.seed,
             });
@@ -54,16 +53,17 @@ fn word(sampler: SamplerName) -> &'static str {
     }
 }
 
-/// The runs of one entry on a scene.
+/// The runs of one entry on a scene, for which its integrator is ready.
 pub(super) fn contender<'a>(
-    entry: &'a Entry,
+    entry: &Entry,
+    integrator: &'a Ready,
     runs: u32,
     filter: Filter,
     built: &'a Built,
     interrupt: &'a Interrupt,
 ) -> Result<Contender<'a>, CliError> {
     let seeds = (0..u64::from(runs)).map(|k| entry.seed.wrapping_add(k));
-    let stage = Stage { entry, filter, built, interrupt };
+    let stage = Stage { integrator, filter, built, interrupt };
     let runs: Result<Vec<Box<dyn Estimator + 'a>>, CliError> = seeds
         .map(|seed| match entry.sampler {
             SamplerName::Sobol => stage.run(move |n| Sobol::new(seed, n), false),
@@ -76,7 +76,7 @@ pub(super) fn contender<'a>(
 
 #[derive(Clone, Copy)]
 struct Stage<'a> {
-    entry: &'a Entry,
+    integrator: &'a Ready,
     filter: Filter,
     built: &'a Built,
     interrupt: &'a Interrupt,
@@ -89,7 +89,7 @@ impl<'a> Stage<'a> {
         anew: bool,
     ) -> Result<Box<dyn Estimator + 'a>, CliError> {
         let Built { scene, prepared } = self.built;
-        let run = RenderRun::new(scene, &*prepared.camera, &self.entry.tracer, sampler)?
+        let run = RenderRun::new(scene, &*prepared.camera, self.integrator.integrator(), sampler)?
             .filter(self.filter)
             .progress(self.interrupt);
         Ok(Box::new(if anew { run.anew() } else { run }))

@@ -11,7 +11,6 @@ use std::path::{Path, PathBuf};
 
 use etendue::SystemClock;
 use etendue::core::UVec2;
-use etendue::integrator::Integrator;
 use etendue::io::write_atomically;
 use etendue::measure::{Budget, Clocks, Reference, race};
 use etendue::sampling::Sobol;
@@ -137,9 +136,11 @@ fn measure(args: &BenchArgs, path: &Path, interrupt: &Interrupt) -> Result<Scene
         picture::check_size(r, size)?;
     }
     let entries = contenders::entries(args);
+    let ready = entries.iter().map(|e| e.method.on(&built.scene)).collect::<Result<Vec<_>, _>>()?;
     let mut field = entries
         .iter()
-        .map(|e| contenders::contender(e, args.runs, args.method.filter, &built, interrupt))
+        .zip(&ready)
+        .map(|(e, r)| contenders::contender(e, r, args.runs, args.method.filter, &built, interrupt))
         .collect::<Result<Vec<_>, _>>()?;
     let unlimited = if args.time.is_some() { UNLIMITED } else { SPP };
     let budget = Budget { spp: args.spp.map_or(unlimited, u64::from), seconds: args.time };
@@ -156,7 +157,7 @@ fn measure(args: &BenchArgs, path: &Path, interrupt: &Interrupt) -> Result<Scene
         threads: rayon::current_num_threads(),
         reference,
         curves,
-        bias: entries.iter().map(|e| Integrator::<Sobol>::bias(&e.tracer)).collect(),
+        bias: ready.iter().map(|r| r.integrator::<Sobol>().bias()).collect(),
         pictures,
         warnings,
     })

@@ -125,6 +125,7 @@ impl Job<'_> {
             scene: &scene,
             camera: &*prepared.camera,
             settings,
+            integrator: &settings.method.on(&scene)?,
             words: settings.words(&prepared),
             outputs,
             interrupt,

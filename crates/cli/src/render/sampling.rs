@@ -1,5 +1,4 @@
 use etendue::core::Fingerprint;
-use etendue::integrator::Integrator;
 use etendue::io::{Digest, FilmFile, FilmInfo, IndexRanges};
 use etendue::sampling::{Independent, Sampler, Sobol, Stratified};
 
@@ -20,7 +19,7 @@ pub(super) fn run(work: &Work<'_>, resumed: Option<FilmFile>) -> Result<Outcome,
 }
 
 fn with<S: Sampler>(work: &Work<'_>, sampler: S, resumed: Option<FilmFile>) -> Result<Outcome, CliError> {
-    let named = Integrator::<S>::bias(&work.settings.tracer);
+    let named = work.integrator.integrator::<S>().bias();
     let bias = work.settings.bias(named);
     let mut words = work.words.clone();
     words.insert("bias".into(), if bias.is_empty() { "none".into() } else { bias.join("; ") });
@@ -41,7 +40,7 @@ fn settings_digest<S: Sampler>(work: &Work<'_>, sampler: &S) -> Digest {
     let mut f = Fingerprint::default();
     f.tag(env!("CARGO_PKG_VERSION"));
     work.camera.fingerprint(&mut f);
-    Integrator::<S>::fingerprint(&work.settings.tracer, &mut f);
+    work.integrator.integrator::<S>().fingerprint(&mut f);
     sampler.fingerprint(&mut f);
     work.settings.filter.fingerprint(&mut f);
     Digest::from(&f)

@@ -3,9 +3,8 @@ use std::ops::Range;
 
 use etendue::camera::{Filter, Planes};
 use etendue::core::UVec2;
-use etendue::integrator::PathTracer;
 
-use crate::args::{Aov, IntegratorChoice, Materials, RenderArgs, SamplerName};
+use crate::args::{Aov, IntegratorChoice, Materials, Method, RenderArgs, SamplerName};
 use crate::error::CliError;
 use crate::prepare::Prepared;
 
@@ -25,7 +24,7 @@ pub(crate) struct Settings {
     /// Independent parts of the point set.
     pub(crate) replicates: u32,
     pub(crate) integrator: IntegratorChoice,
-    pub(crate) tracer: PathTracer,
+    pub(crate) method: Method,
     pub(crate) filter: Filter,
     pub(crate) planes: Planes,
     /// Seconds.
@@ -60,7 +59,7 @@ impl Settings {
             sampler: args.sampler,
             replicates: args.replicates,
             integrator: args.integrator.clone(),
-            tracer: args.integrator.tracer(args.method.max_depth),
+            method: args.integrator.method.limited(args.method.max_depth),
             filter: args.method.filter,
             planes: Planes {
                 albedo: has(Aov::Albedo),
@@ -77,7 +76,7 @@ impl Settings {
 
     /// What is biased, of what the integrator names: that `direct` stops after one scattering event is what it is.
     pub(crate) fn bias(&self, named: Vec<String>) -> Vec<String> {
-        let by_design = self.integrator.direct_only && self.tracer.max_depth == Some(1);
+        let by_design = self.integrator.direct_only && self.method.max_depth() == Some(1);
         named.into_iter().filter(|b| !(by_design && b.starts_with("max_depth="))).collect()
     }
 
@@ -110,7 +109,7 @@ impl Settings {
     /// picture may differ in is among them.
     pub(crate) fn words(&self, prepared: &Prepared) -> BTreeMap<String, String> {
         let size = self.size_of(prepared);
-        let depth = self.tracer.max_depth.map_or("none".to_owned(), |d| d.to_string());
+        let depth = self.method.max_depth().map_or("none".to_owned(), |d| d.to_string());
         let mut words = vec![
             ("program", format!("etendue {}", env!("CARGO_PKG_VERSION"))),
             ("scene", prepared.scene_name.clone()),

@@ -13,6 +13,7 @@ use etendue::scene::Scene;
 
 use super::curve::{CurveLog, at_powers_of_two};
 use super::settings::Settings;
+use crate::args::Ready;
 use crate::error::CliError;
 use crate::outputs::{Kind, Output};
 use crate::report::{Totals, needs};
@@ -28,6 +29,7 @@ pub(super) struct Work<'a> {
     pub(super) scene: &'a Scene,
     pub(super) camera: &'a dyn Camera,
     pub(super) settings: &'a Settings,
+    pub(super) integrator: &'a Ready,
     pub(super) words: BTreeMap<String, String>,
     pub(super) outputs: &'a [Output],
     pub(super) interrupt: &'a Interrupt,
@@ -160,7 +162,7 @@ impl<S: Sampler> Run<'_, S> {
             ..RenderOptions::default()
         };
         let mut stopwatch = Stopwatch::start();
-        let report = render(w.scene, w.camera, &w.settings.tracer, self.sampler, film, &options)?;
+        let report = render(w.scene, w.camera, w.integrator.integrator(), self.sampler, film, &options)?;
         self.spent.add(stopwatch.lap());
         self.totals.add(&report);
         Ok(report.complete)
