@@ -6,7 +6,6 @@ use etendue_light::{LitPoint, Sides};
 use crate::{Context, Vertex};
 
 /// The BSDF of a surface; `None` for one of another scene. A normal map turns the surface's shading frame.
-#[inline(always)]
 pub(crate) fn bsdf_at<'a>(cx: &Context<'a>, surface: &mut Surface) -> Option<BsdfAt<'a>> {
     let material = cx.scene.material(surface)?;
     if cx.scene.needs().contains(Needs::NORMAL_MAPS) {

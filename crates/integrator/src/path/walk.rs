@@ -6,7 +6,7 @@ use etendue_sampling::{Dim, Sampler, Slot};
 use super::PathTracer;
 use super::direct::cutout_bits;
 use super::leg::{Leg, Parts, Scattered};
-use crate::shaded::{Shaded, bsdf_at};
+use crate::shaded::Shaded;
 use crate::{Context, Contribution, ContributionKind, Recorder, Sample};
 
 impl PathTracer {
@@ -97,7 +97,13 @@ impl PathTracer {
         if !needs.contains(Needs::LIGHTS) && depth > 0 {
             return false;
         }
-        let Some(bsdf) = bsdf_at(cx, &mut surface) else { return false };
+        // As `bsdf_at`, without moving the BSDF out of an option: half a percent of all instructions.
+        let Some(material) = scene.material(&surface) else { return false };
+        if needs.contains(Needs::NORMAL_MAPS) {
+            surface.shading = material.shading_frame(&surface);
+        }
+        let bsdf = material.bsdf(&surface);
+        cx.count(|c| c.texture_fetches += u64::from(surface.fetches.get()));
         let here = Shaded::new(&surface, &bsdf, wo);
         rec.vertex(&here.vertex(depth, hit.t, carried.beta));
         let ends = self.max_depth.is_some_and(|m| depth >= m)
