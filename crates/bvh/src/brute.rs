@@ -28,7 +28,7 @@ impl BruteForce {
         }
         for (inst, instance) in self.world.instances.iter().enumerate() {
             if instance.mask & ray.mask != 0 {
-                let (object_ray, _) = instance.to_world.ray_to_object(ray);
+                let object_ray = instance.ray_to_object(ray);
                 if object_ray.is_valid() && self.group(&instance.geoms, &object_ray, inst as u32, sink) {
                     return;
                 }
@@ -66,7 +66,7 @@ impl Accel for BruteForce {
         self.world
             .instances
             .iter()
-            .map(|i| i.to_world.aabb(&i.geoms.iter().map(alone).fold(Aabb::EMPTY, Aabb::union)))
+            .map(|i| i.bounds_of(&i.geoms.iter().map(alone).fold(Aabb::EMPTY, Aabb::union)))
             .fold(direct, Aabb::union)
     }
 

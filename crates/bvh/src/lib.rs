@@ -32,7 +32,7 @@
 //! corners on one straight line, the gap it leaves is narrower than double precision can tell for most rays, but it
 //! is there.) Between different geometries and instances there is no such promise.
 //!
-//! Limits: nothing moves while the shutter is open; one level of instances; 2²⁸ triangles or shapes in one group;
+//! What moves is met where it is at the ray's own time. Limits: only whole instances move, and rigidly; one level of instances; 2²⁸ triangles or shapes in one group;
 //! nodes are four wide.
 //!
 //! Uses `etendue-core` and `etendue-geometry`. With the feature `parallel` trees are built on the current rayon pool.
@@ -45,6 +45,7 @@ mod error;
 mod group;
 mod instances;
 mod kernel;
+mod level;
 mod shape_hits;
 mod sink;
 mod tree_accel;

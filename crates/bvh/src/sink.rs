@@ -105,3 +105,19 @@ impl<S: Sink> Sink for Filtered<'_, S> {
         if self.filter.keep(self.ray_index, self.ray, hit) { self.inner.offer(hit) } else { Answer::Passed }
     }
 }
+
+/// A sink of another type, so that the walk through a group is compiled once more instead of being shared: shared, it is
+/// not inlined any more, and everything that stands still pays for what moves.
+pub(crate) struct Apart<'a, S>(pub(crate) &'a mut S);
+
+impl<S: Sink> Sink for Apart<'_, S> {
+    #[inline]
+    fn limit(&self) -> f32 {
+        self.0.limit()
+    }
+
+    #[inline]
+    fn offer(&mut self, hit: &Hit) -> Answer {
+        self.0.offer(hit)
+    }
+}

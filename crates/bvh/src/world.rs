@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use etendue_core::{Aabb, Ray, Transform, Vec3A, Vec4};
+use etendue_core::{Aabb, Motion, Ray, Transform, Vec3A, Vec4};
 use etendue_geometry::{AlphaAttributes, Geometry, Hit, Surface};
 
 use crate::{BuildError, Place};
@@ -10,8 +10,10 @@ use crate::{BuildError, Place};
 pub struct Instance {
     /// Geometries, by their place in [`World::geometries`]. Instances with the same list share one hierarchy.
     pub geoms: Arc<[u32]>,
-    /// Object space to world space.
+    /// Object space to world space, at time 0 if it moves.
     pub to_world: Transform,
+    /// What it does after that; `None` for what stands still. A ray meets it where it is at the ray's own time.
+    pub motion: Option<Arc<Motion>>,
     /// Rays that share no bit with this do not see the instance. A geometry's own mask counts too.
     pub mask: u32,
 }
@@ -27,6 +29,37 @@ pub struct World {
     pub direct: Vec<u32>,
     /// Geometries placed by transforms; a hit names its place in this list.
     pub instances: Vec<Instance>,
+}
+
+impl Instance {
+    /// A group that stands still and is seen by every ray.
+    pub fn new(geoms: Arc<[u32]>, to_world: Transform) -> Self {
+        Self { geoms, to_world, motion: None, mask: u32::MAX }
+    }
+
+    /// The same, moving. A motion that moves nothing is none.
+    #[must_use]
+    pub fn with_motion(mut self, motion: Motion) -> Self {
+        self.motion = (!motion.is_still()).then(|| Arc::new(motion));
+        self
+    }
+
+    /// The ray in object space, with `t` as it is.
+    #[inline]
+    pub fn ray_to_object(&self, ray: &Ray) -> Ray {
+        match &self.motion {
+            None => self.to_world.ray_to_object(ray).0,
+            Some(motion) => motion.placement(&self.to_world, ray.time).ray_to_object(ray).0,
+        }
+    }
+
+    /// A box, world space, around all that an object-space box passes through.
+    pub fn bounds_of(&self, b: &Aabb) -> Aabb {
+        match &self.motion {
+            None => self.to_world.aabb(b),
+            Some(motion) => motion.bounds_after(&self.to_world, b),
+        }
+    }
 }
 
 impl World {
@@ -76,17 +109,22 @@ impl World {
 
     /// Everything about the point that a world-space ray hit, in world space.
     ///
-    /// A hit that does not come from this world gives a point on the ray that faces its origin.
+    /// What moves is taken where it is at the ray's time. A hit that does not come from this world gives a point on the ray that faces its origin.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let Some(geometry) = self.geometries.get(hit.geom as usize) else {
             return Surface::new(ray.at(hit.t), Vec3A::ZERO, -ray.d);
         };
         match self.instances.get(hit.inst as usize) {
             None => geometry.surface(ray, hit),
-            Some(instance) => {
-                let (object_ray, _) = instance.to_world.ray_to_object(ray);
-                geometry.surface(&object_ray, hit).transformed(&instance.to_world)
-            }
+            Some(instance) => match &instance.motion {
+                None => placed_surface(geometry, &instance.to_world, ray, hit),
+                Some(motion) => {
+                    let to_world = motion.placement(&instance.to_world, ray.time);
+                    let mut surface = placed_surface(geometry, &to_world, ray, hit);
+                    surface.time = ray.time;
+                    surface
+                }
+            },
         }
     }
 
@@ -98,7 +136,13 @@ impl World {
         let at = mesh.alpha_attributes(hit.prim, hit.uv);
         match self.instances.get(hit.inst as usize) {
             None => at,
-            Some(instance) => AlphaAttributes { p: instance.to_world.point(at.p), ..at },
+            Some(instance) => match &instance.motion {
+                None => AlphaAttributes { p: instance.to_world.point(at.p), ..at },
+                Some(motion) => {
+                    let to_world = motion.placement(&instance.to_world, ray.time);
+                    AlphaAttributes { p: to_world.point(at.p), ..at }
+                }
+            },
         }
     }
 
@@ -109,4 +153,10 @@ impl World {
             .filter_map(|&g| self.geometries.get(g as usize))
             .fold(Aabb::EMPTY, |b, g| b.union(g.bounds()))
     }
+}
+
+#[inline]
+fn placed_surface(geometry: &Geometry, to_world: &Transform, ray: &Ray, hit: &Hit) -> Surface {
+    let (object_ray, _) = to_world.ray_to_object(ray);
+    geometry.surface(&object_ray, hit).transformed(to_world)
 }

@@ -12,7 +12,7 @@ use etendue_geometry::{Sphere, presets};
 fn one_instance(mesh: etendue_geometry::TriangleMesh, to_world: Transform) -> World {
     let mut world = World::default();
     world.geometries.push(mesh.into());
-    world.instances.push(Instance { geoms: Arc::new([0]), to_world, mask: u32::MAX });
+    world.instances.push(Instance::new(Arc::new([0]), to_world));
     world
 }
 
@@ -139,7 +139,7 @@ fn equal_groups_share_a_hierarchy() {
         for i in 0..count {
             let geoms = if shared { group.clone() } else { Arc::new([0]) };
             let to_world = Transform::translation(Vec3A::X * (3.0 * i as f32));
-            world.instances.push(Instance { geoms, to_world, mask: u32::MAX });
+            world.instances.push(Instance::new(geoms, to_world));
         }
         tree(&world).report().bytes
     };
@@ -159,7 +159,7 @@ fn many_instances_are_found_from_far_away() {
     for _ in 0..300 {
         let turn = Transform::rotation(rng.direction(), rng.range(0.0, 6.0));
         let to_world = Transform::translation(at + rng.point(20.0)).after(&turn).unwrap();
-        world.instances.push(Instance { geoms: group.clone(), to_world, mask: u32::MAX });
+        world.instances.push(Instance::new(group.clone(), to_world));
     }
     let (accel, oracle) = (tree(&world), etendue_bvh::BruteForce::build(&world).unwrap());
     let mut hits = 0;
@@ -185,7 +185,7 @@ fn edges_of_flat_instances_are_not_lost() {
     for i in 0..25 {
         let shift = Transform::translation(Vec3A::new((i % 5) as f32 * 1.5, 0.0, (i / 5) as f32 * 1.5));
         let to_world = shift.after(&shear).unwrap();
-        world.instances.push(Instance { geoms: group.clone(), to_world, mask: u32::MAX });
+        world.instances.push(Instance::new(group.clone(), to_world));
     }
     let (accel, oracle) = (tree(&world), etendue_bvh::BruteForce::build(&world).unwrap());
     let mut hits = 0;

@@ -49,7 +49,7 @@ fn leaving(rng: &mut Rng, n: Vec3A) -> Vec3A {
 }
 
 fn placed(world: &mut World, to_world: Transform) {
-    world.instances.push(Instance { geoms: Arc::new([0]), to_world, mask: u32::MAX });
+    world.instances.push(Instance::new(Arc::new([0]), to_world));
 }
 
 /// Scale 10⁻⁴ … 10⁴ per axis, turned, mirrored now and then, moved by up to 10⁸.

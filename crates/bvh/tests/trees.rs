@@ -60,11 +60,8 @@ fn zoo(seed: u64) -> World {
         let m = [rng.point(1.0), rng.point(1.0), rng.point(1.0)];
         let Ok(to_world) = Transform::from_columns(m[0], m[1], m[2], rng.point(4.0)) else { continue };
         let group = if i == 0 { 2 } else { rng.below(2) };
-        world.instances.push(Instance {
-            geoms: groups[group].clone(),
-            to_world,
-            mask: rng.bits() as u32 | 2,
-        });
+        let instance = Instance::new(groups[group].clone(), to_world);
+        world.instances.push(Instance { mask: rng.bits() as u32 | 2, ..instance });
     }
     world
 }
@@ -305,6 +302,6 @@ fn an_empty_world_is_valid() {
     assert!(accel.bounds().is_empty());
     let mut world = World::default();
     world.add(TriangleMesh::empty());
-    world.instances.push(Instance { geoms: Arc::new([0]), to_world: Transform::IDENTITY, mask: u32::MAX });
+    world.instances.push(Instance::new(Arc::new([0]), Transform::IDENTITY));
     assert_eq!(tree(&world).intersect(&Ray::new(Vec3A::ZERO, Vec3A::X)), None);
 }

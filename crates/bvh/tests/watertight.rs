@@ -182,7 +182,7 @@ fn nothing_gets_out_of_an_instance() {
             let Ok(to_world) = Transform::from_columns(m[0], m[1], m[2], shift) else { continue };
             let mut world = World::default();
             world.geometries.push(closed.mesh.clone().into());
-            world.instances.push(Instance { geoms: Arc::new([0]), to_world, mask: u32::MAX });
+            world.instances.push(Instance::new(Arc::new([0]), to_world));
             let accel = tree(&world);
             for _ in 0..300 {
                 let o = to_world.point(closed.inside + rng.direction() * closed.radius * rng.unit() * 0.5);

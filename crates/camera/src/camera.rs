@@ -32,7 +32,8 @@ pub trait Camera: Send + Sync {
     fn resolution(&self) -> UVec2;
 
     /// The ray of a film position in pixels (`(0, 0)` is the outer corner of the top left pixel, `y` grows downward)
-    /// through the lens position `lens` in `[0, 1)²` at `time` in `[0, 1)`; `None` where the camera is blind.
+    /// through the lens position `lens` in `[0, 1)²` at `time` in `[0, 1)` of its [`Camera::exposure`]; `None` where the
+    /// camera is blind. Without [`Needs::MOTION`] in scene and camera `time` is always 0.
     fn ray(&self, film: Vec2, lens: Vec2, time: f32) -> Option<CameraSample>;
 
     /// The way back from a point to the film; `None` where it is not seen or the camera cannot say.
@@ -46,8 +47,49 @@ pub trait Camera: Send + Sync {
         Needs::empty()
     }
 
+    /// When the shutter opens and closes, within the interval \[0, 1\] of the scene's motion: the ray's own time is
+    /// `open + (close − open) · time`, below 1.
+    fn exposure(&self) -> [f32; 2] {
+        [0.0, 1.0]
+    }
+
     /// What decides the camera, for comparing renders.
     fn fingerprint(&self, f: &mut Fingerprint) {
         f.opaque();
     }
 }
+
+/// A pointer to a camera is the camera.
+macro_rules! pointer {
+    ($pointer:ty) => {
+        impl<C: Camera + ?Sized> Camera for $pointer {
+            fn resolution(&self) -> UVec2 {
+                (**self).resolution()
+            }
+
+            fn ray(&self, film: Vec2, lens: Vec2, time: f32) -> Option<CameraSample> {
+                (**self).ray(film, lens, time)
+            }
+
+            fn connect(&self, p: &Origin, lens: Vec2) -> Option<Connect> {
+                (**self).connect(p, lens)
+            }
+
+            fn needs(&self) -> Needs {
+                (**self).needs()
+            }
+
+            fn exposure(&self) -> [f32; 2] {
+                (**self).exposure()
+            }
+
+            fn fingerprint(&self, f: &mut Fingerprint) {
+                (**self).fingerprint(f);
+            }
+        }
+    };
+}
+
+pointer!(&C);
+pointer!(Box<C>);
+pointer!(std::sync::Arc<C>);

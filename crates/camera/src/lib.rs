@@ -20,7 +20,7 @@
 //! ```
 //!
 //! [`Perspective`] has a pinhole or a thin lens, round or with blades; [`Orthographic`] has parallel rays; [`Panorama`] sees in all
-//! directions.
+//! directions. A [`Shutter`] around any of them says when it looks, and moves it.
 //!
 //! Limits: radiance above 2⁴⁰ is refused (and counted); 2²² samples of that size would fill a pixel's sum.
 //! Uses core, sampling and geometry; a scene knows no camera, since it is viewed by many.
@@ -29,6 +29,7 @@ mod camera;
 mod film;
 mod filter;
 mod fixed;
+mod moving;
 mod orthographic;
 mod panorama;
 mod parts;
@@ -40,6 +41,7 @@ pub use camera::{Camera, CameraSample, Connect};
 pub use film::{Film, FilmError, MergeError};
 pub use filter::{Filter, FilterSample, FilterSampler};
 pub use fixed::LIMIT;
+pub use moving::{Shutter, ShutterError};
 pub use orthographic::Orthographic;
 pub use panorama::{Panorama, PanoramaMap};
 pub use parts::{FilmParts, FilmView};

@@ -1,4 +1,4 @@
-//! The words every other crate speaks: rays, boxes, frames, transforms, spectra, rounding-error bounds,
+//! The words every other crate speaks: rays, boxes, frames, transforms, motions, spectra, rounding-error bounds,
 //! portable transcendental functions, radiometric quantities and the census bits.
 //!
 //! This crate stands at the root of the workspace and uses nothing of it. It does no sampling and knows no shapes.
@@ -17,6 +17,7 @@ mod aabb;
 mod fingerprint;
 mod frame;
 pub mod math;
+mod motion;
 mod needs;
 mod origin;
 mod progress;
@@ -32,6 +33,7 @@ pub use fingerprint::Fingerprint;
 pub use frame::Frame;
 pub use glam;
 pub use glam::{UVec2, Vec2, Vec3, Vec3A, Vec4};
+pub use motion::{Motion, MotionError};
 pub use needs::Needs;
 pub use origin::{Origin, Segment};
 pub use progress::{CancelFlag, Clock, Progress};

@@ -98,14 +98,26 @@ impl Transform {
             inverse_translation: f(inv_t),
             mirrors: det < 0.0,
         };
-        if !(out.linear.is_finite()
-            && out.translation.is_finite()
-            && out.inverse_linear.is_finite()
-            && out.inverse_translation.is_finite())
-        {
-            return Err(TransformError::NotFinite);
-        }
-        Ok(out)
+        if out.is_finite() { Ok(out) } else { Err(TransformError::NotFinite) }
+    }
+
+    /// From maps that are known to undo each other.
+    pub(crate) fn from_parts(
+        linear: Mat3A,
+        translation: Vec3A,
+        inverse_linear: Mat3A,
+        inverse_translation: Vec3A,
+        mirrors: bool,
+    ) -> Self {
+        Self { linear, translation, inverse_linear, inverse_translation, mirrors }
+    }
+
+    /// Whether all entries, those of the inverse too, are finite numbers.
+    pub fn is_finite(&self) -> bool {
+        self.linear.is_finite()
+            && self.translation.is_finite()
+            && self.inverse_linear.is_finite()
+            && self.inverse_translation.is_finite()
     }
 
     /// A translation.

@@ -15,7 +15,7 @@
 //! # Ok::<(), etendue_geometry::ShapeError>(())
 //! ```
 //!
-//! Limits: nothing moves while the shutter is open; no curves or subdivision surfaces. Triangles beyond 2⁶⁰ are not
+//! Limits: a shape does not move in its own space (its instances may); no curves or subdivision surfaces. Triangles beyond 2⁶⁰ are not
 //! hit.
 //!
 //! Uses `etendue-core`; the hierarchies over it are in `etendue-bvh`.
@@ -26,6 +26,7 @@ mod exact;
 mod geometry;
 mod mesh;
 pub mod presets;
+mod return_bound;
 mod shape;
 mod shapes;
 mod surface;
@@ -34,6 +35,7 @@ pub mod triangle;
 pub use error::{MeshError, ShapeError};
 pub use geometry::Geometry;
 pub use mesh::{AlphaAttributes, MeshReport, TriangleMesh};
+pub use return_bound::ReturnBound;
 pub use shape::{Shape, ShapeHit, ShapeSample};
 pub use shapes::{Cylinder, Disc, Parallelogram, Plane, Sphere};
 pub use surface::{Hit, Surface, return_error};

@@ -24,11 +24,12 @@
 //! | [`ShapeLight`] | 1 | area |
 //! | [`ConstantEnvironment`] | 1 | the cosine at the receiver, or uniformly |
 //! | [`ImageEnvironment`] | 1 | its radiance |
+//! | [`MovingLight`] | those of a light | as that light is, from where the asking point stands relative to it |
 //!
 //! Where a point uses only one side of its surface ([`Sides::Same`]), lights return no directions from behind it and
 //! report zero density for them; that mass is lost, not moved elsewhere.
 //!
-//! Limits: nothing moves.
+//! Limits: lights move rigidly ([`MovingLight`]); a picker chooses the same way at every moment.
 //!
 //! Place in the workspace: above `core`, `sampling`, `geometry` and `texture`; scenes hold lights, integrators ask them.
 
@@ -43,6 +44,7 @@ mod image_environment;
 mod intensity_table;
 mod light;
 mod mesh;
+mod moving;
 mod parallelogram;
 mod part_table;
 mod picker;
@@ -63,6 +65,7 @@ pub use image_environment::ImageEnvironment;
 pub use intensity_table::{IntensityTable, IntensityTableError};
 pub use light::{Light, LightBounds, LightId, LightSample, LitPoint, Sides};
 pub use mesh::MeshLight;
+pub use moving::MovingLight;
 pub use parallelogram::ParallelogramLight;
 pub use picker::{LightPicker, Pick};
 pub use picker_power::PowerPicker;

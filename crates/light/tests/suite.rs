@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use etendue_core::{Ray, Spectrum, Vec3A, vector};
+use etendue_core::{Motion, Ray, Spectrum, Transform, Vec3A, vector};
 use etendue_geometry::{Cylinder, Disc, Parallelogram, Shape, Sphere};
 use etendue_light::{
-    ConstantEnvironment, ImageEnvironment, Light, LightId, LitPoint, MeshLight, ParallelogramLight,
-    PointLight, PowerPicker, ShapeLight, Sides, SphereLight, UniformPicker,
+    ConstantEnvironment, ImageEnvironment, Light, LightId, LitPoint, MeshLight, MovingLight,
+    ParallelogramLight, PointLight, PowerPicker, ShapeLight, Sides, SphereLight, UniformPicker,
 };
 use etendue_testkit::{Budget, Seen, check_light, check_picker, lit_point};
 use etendue_texture::{ImageTexture, Tex};
@@ -72,6 +72,70 @@ fn every_light_keeps_the_contract() {
         let hit = skew.intersect(ray).filter(|h| h.uv.y <= h.uv.x)?;
         Some(skew.surface(ray, &hit))
     });
+}
+
+/// Lamps of moving instances and others, at several times.
+#[test]
+fn moving_lights_keep_the_contract_at_every_time() {
+    const TIMES: [f32; 4] = [0.0, 0.25, 0.7, 1.0 - f32::EPSILON];
+    let calls = 2 * 7 * TIMES.len();
+    let check = |name: &str, light: &dyn Light, seen: &Seen<'_>| {
+        for (time, seed) in TIMES.into_iter().flat_map(|t| [(t, 1), (t, 2)]) {
+            let points = points().map(|at| LitPoint { time, ..at });
+            let budget = Budget::default().shared(calls).seed(seed).effort(0.1);
+            if let Err(failure) = check_light(light, 0, &points, seen, &budget) {
+                panic!("{name} at {time}, seed {seed}: {failure}");
+            }
+        }
+    };
+    let white = || Tex::gray(3.0);
+    let motion = Motion::new(Vec3A::new(0.3, 1.0, 0.2), 2.5, Vec3A::X * 0.3, Vec3A::new(0.4, 0.3, -0.5));
+    let motion = motion.expect("finite");
+    let start = Transform::from_columns(
+        Vec3A::new(1.1, 0.2, 0.0),
+        Vec3A::new(0.0, 0.7, 0.3),
+        Vec3A::new(0.1, 0.0, -1.2),
+        Vec3A::new(0.2, 0.1, -0.1),
+    );
+    let start = start.expect("regular");
+    // As a hierarchy finds it: by way of the placement at the ray's time.
+    let traced = |shape: &dyn Shape, start: &Transform, ray: &Ray| {
+        let placed = motion.placement(start, ray.time);
+        let (object, _) = placed.ray_to_object(ray);
+        let hit = shape.intersect(&object)?;
+        let mut surface = shape.surface(&object, &hit).transformed(&placed);
+        surface.time = ray.time;
+        Some(surface)
+    };
+    let skew = Parallelogram::new(Vec3A::new(-0.3, 0.1, -0.5), Vec3A::X, Vec3A::new(0.4, 0.2, 0.8));
+    let skew = skew.expect("an area");
+    let ball = Sphere::new(Vec3A::new(0.1, 0.2, -0.1), 0.5).expect("a ball");
+    let still = Transform::IDENTITY;
+    let moving = |light: Arc<dyn Light>, start: &Transform| MovingLight::of_instance(light, start, motion);
+    let square = Parallelogram::new(Vec3A::new(-0.5, 0.0, -0.4), Vec3A::Z, Vec3A::X * 0.7).expect("a square");
+    let rectangle = moving(Arc::new(ParallelogramLight::new(square, white())), &still);
+    check("rectangle", &rectangle, &|ray| traced(&square, &still, ray));
+    let sphere = moving(Arc::new(SphereLight::new(ball, white())), &still);
+    check("sphere", &sphere, &|ray| traced(&ball, &still, ray));
+    let shape = moving(Arc::new(ShapeLight::new(Arc::new(skew), Some(start), white(), true)), &start);
+    check("placed shape", &shape, &|ray| traced(&skew, &start, ray));
+    let quad = Arc::new(etendue_geometry::presets::quad(skew.origin(), skew.edge_u(), skew.edge_v()));
+    let mesh = moving(Arc::new(MeshLight::new(quad, Some(start), white(), false)), &start);
+    check("placed triangle", &mesh, &|ray| {
+        let placed = motion.placement(&start, ray.time);
+        let hit = skew.intersect(&placed.ray_to_object(ray).0).filter(|h| h.uv.y <= h.uv.x)?;
+        let _ = hit;
+        traced(&skew, &start, ray)
+    });
+    let pattern =
+        Tex::image(Arc::new(ImageTexture::from_f32(2, 2, 1, vec![1.0, 2.0, 4.0, 0.5]).expect("an image")));
+    let textured = moving(Arc::new(ShapeLight::new(Arc::new(skew), Some(start), pattern, false)), &start);
+    check("textured shape", &textured, &|ray| traced(&skew, &start, ray));
+    let point = PointLight::new(Vec3A::new(0.1, 0.5, 0.0), Spectrum::rgb(1.0, 2.0, 3.0));
+    check("point", &MovingLight::new(Arc::new(point), motion), &|_| None);
+    let sky = ImageTexture::from_f32(8, 4, 1, (0..32).map(|i| if i == 13 { 50.0 } else { 0.2 }).collect());
+    let sky = ImageEnvironment::new(sky.expect("an image"), 1.0, 0.4).expect("a sky");
+    check("image environment", &MovingLight::new(Arc::new(sky), motion), &|_| None);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use etendue_bvh::{Accel, BuildError, BuildOptions, Instance, TreeAccel, World};
-use etendue_core::{Aabb, Needs, Progress, Transform};
+use etendue_core::{Aabb, Motion, Needs, Progress, Transform};
 use etendue_geometry::Geometry;
 use etendue_light::{Light, LightPicker, PowerPicker, SinglePicker};
 use etendue_material::Material;
@@ -142,9 +142,19 @@ impl SceneBuilder {
             self.check("group", group.0, self.groups.len());
             return InstanceId(u32::MAX);
         };
-        self.instances.push(Instance { geoms: geoms.clone(), to_world, mask: u32::MAX });
+        self.instances.push(Instance::new(geoms.clone(), to_world));
         self.instance_groups.push(group.0);
         InstanceId(self.instances.len() as u32 - 1)
+    }
+
+    /// Places a group that moves while the shutter is open: by `to_world` at time 0, and from there by `motion`, which acts
+    /// in world space. A motion that moves nothing gives a plain instance.
+    pub fn moving_instance(&mut self, group: GroupId, to_world: Transform, motion: Motion) -> InstanceId {
+        let id = self.instance(group, to_world);
+        if let Some(instance) = self.instances.get_mut(id.0 as usize) {
+            *instance = instance.clone().with_motion(motion);
+        }
+        id
     }
 
     /// Makes geometry emit. Every placement of it becomes a light.
@@ -198,11 +208,10 @@ impl SceneBuilder {
         self.lights.is_empty() && self.emission.iter().all(Option::is_none)
     }
 
-    /// A box around everything bounded that has been placed so far.
+    /// A box around everything bounded that has been placed so far, wherever it moves.
     pub fn bounds(&self) -> Aabb {
         let of = |g: u32| self.geometries.get(g as usize).map_or(Aabb::EMPTY, Geometry::bounds);
-        let placed =
-            |i: &Instance| i.geoms.iter().fold(Aabb::EMPTY, |b, &g| b.union(i.to_world.aabb(&of(g))));
+        let placed = |i: &Instance| i.geoms.iter().fold(Aabb::EMPTY, |b, &g| b.union(i.bounds_of(&of(g))));
         let boxes = self.direct.iter().map(|&g| of(g)).chain(self.instances.iter().map(placed));
         boxes.filter(Aabb::is_finite).fold(Aabb::EMPTY, Aabb::union)
     }
@@ -241,8 +250,16 @@ impl SceneBuilder {
                 return Err(SceneError::BadPlacement { instance: i });
             }
             for &geom in instance.geoms.iter() {
-                if self.geometries[geom as usize].bounds() == Aabb::INFINITE {
+                let bounds = self.geometries[geom as usize].bounds();
+                if bounds == Aabb::INFINITE {
                     return Err(SceneError::InfiniteInstance { group: self.instance_groups[i], geom });
+                }
+                if let Some(motion) = &instance.motion {
+                    let end = motion.placement(&instance.to_world, 1.0);
+                    let path = instance.bounds_of(&bounds);
+                    if !end.is_finite() || !(path.is_finite() || path.is_empty()) {
+                        return Err(SceneError::BadMotion { instance: i });
+                    }
                 }
             }
         }

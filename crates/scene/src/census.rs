@@ -59,6 +59,11 @@ pub(crate) fn take(
         needs |= Needs::INSTANCES;
         report.instances = world.instances.len() as u64;
     }
+    report.moving =
+        world.instances.iter().filter(|i| i.motion.is_some() && !i.geoms.is_empty()).count() as u64;
+    if report.moving > 0 {
+        needs |= Needs::MOTION;
+    }
     for (light, left_to_rays) in emitters.lights.iter().zip(&emitters.unpicked) {
         needs |= light.needs() | Needs::LIGHTS;
         if light.is_infinite() {

@@ -2,7 +2,9 @@ use std::sync::Arc;
 
 use etendue_core::{Fingerprint, Needs, Transform};
 use etendue_geometry::{Geometry, Shape};
-use etendue_light::{Light, LightId, MeshLight, ParallelogramLight, ShapeLight, SphereLight, Unpicked};
+use etendue_light::{
+    Light, LightId, MeshLight, MovingLight, ParallelogramLight, ShapeLight, SphereLight, Unpicked,
+};
 use etendue_texture::Texture;
 
 use crate::{Emission, SceneBuilder, SceneError, SceneReport};
@@ -118,7 +120,10 @@ pub(crate) fn collect(b: &SceneBuilder, report: &mut SceneReport) -> Result<Emit
                 for &geom in instance.geoms.iter() {
                     if let Some(e) = &b.emission[geom as usize] {
                         let geometry = &b.geometries[geom as usize];
-                        let light = light_of(geometry, geom, Some(&instance.to_world), e)?;
+                        let mut light = light_of(geometry, geom, Some(&instance.to_world), e)?;
+                        if let Some(motion) = &instance.motion {
+                            light = Arc::new(MovingLight::of_instance(light, &instance.to_world, **motion));
+                        }
                         let seen = b.masks[geom as usize] & instance.mask != 0;
                         pairs.extend(keep(light, seen, has_holes(geom)).map(|l| (geom, l)));
                     }

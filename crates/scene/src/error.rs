@@ -62,6 +62,14 @@ pub enum SceneError {
         /// The instance.
         instance: usize,
     },
+    /// A motion that leads out of the numbers.
+    #[error(
+        "instance {instance} moves out of what single precision can hold; place it nearer or move it less"
+    )]
+    BadMotion {
+        /// The instance.
+        instance: usize,
+    },
     /// The hierarchy could not be built, or its building was cancelled.
     #[error("building the hierarchy: {0}")]
     Hierarchy(#[from] BuildError),

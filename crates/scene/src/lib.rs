@@ -19,7 +19,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Limits: geometry does not change after building. A scene knows no camera, since it is viewed by many. Uses core,
+//! Limits: geometry does not change after building; while the shutter is open only whole instances move, rigidly. A scene knows no camera, since it is viewed by many. Uses core,
 //! geometry, bvh, bsdf, texture, material and light.
 
 mod builder;

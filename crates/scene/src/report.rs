@@ -13,6 +13,8 @@ pub struct SceneReport {
     pub shapes: u64,
     /// Instances.
     pub instances: u64,
+    /// Of these, how many move while the shutter is open.
+    pub moving: u64,
     /// Triangles without area, dropped.
     pub degenerate_triangles: u64,
     /// Triangles with the corners of an earlier one of their mesh, dropped.
@@ -64,6 +66,7 @@ impl fmt::Display for SceneReport {
             self.memory.total() as f64 / 1e6
         )?;
         for (n, what) in [
+            (self.moving, "instances moving"),
             (self.degenerate_triangles, "triangles without area dropped"),
             (self.duplicate_triangles, "triangles that stand twice dropped"),
             (self.non_finite_triangles, "triangles with unusable vertices dropped"),

@@ -70,7 +70,7 @@ impl Scene {
         &self.parts.report
     }
 
-    /// A box around everything bounded.
+    /// A box around everything bounded, wherever it moves.
     pub fn bounds(&self) -> Aabb {
         self.parts.accel.bounds()
     }
@@ -244,6 +244,9 @@ impl Scene {
         f.u64(p.world.instances.len() as u64);
         for i in &p.world.instances {
             i.to_world.fingerprint(&mut f);
+            if let Some(motion) = &i.motion {
+                motion.fingerprint(&mut f);
+            }
             f.u64(u64::from(i.mask) << 32 | i.geoms.len() as u64);
             for &g in i.geoms.iter() {
                 f.u64(u64::from(g));

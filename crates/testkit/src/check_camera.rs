@@ -8,10 +8,10 @@ const RAYS: usize = 5_000;
 /// Tests a camera against the contract of [`Camera`].
 ///
 /// Rays are valid, unit, finite in weight and spread, for any film position (outside of the picture too), lens and
-/// time; without [`Needs::LENS`] the lens and without [`Needs::MOTION`] the time changes nothing; neighbouring film
-/// positions give neighbouring rays, no further apart than four times the `spread` (if it is not 0); and where the
-/// camera knows the way back ([`Camera::connect`]), a point on a ray is connected to the film position that the ray
-/// came from, through the same lens position.
+/// time, and carry the time that [`Camera::exposure`] makes of it; without [`Needs::LENS`] the lens and without
+/// [`Needs::MOTION`] the time changes nothing else; neighbouring film positions give neighbouring rays, no further apart
+/// than four times the `spread` (if it is not 0); and where the camera knows the way back ([`Camera::connect`]), a point
+/// on a ray is connected to the film position that the ray came from, through the same lens position.
 ///
 /// Power: nothing here has chance in it but the positions. What is wrong for one film position in a thousand is
 /// found on 99 of 100 seeds. Not seen: whether the projection is the one meant; that weight and `we` belong together.
@@ -64,7 +64,12 @@ fn one_ray(
         && s.spread.is_finite()
         && s.spread >= 0.0;
     judge.require(ok, "ray", || format!("{s:?} at {draw:?}"))?;
-    judge.require(s.ray.time == time, "time", || format!("asked for {time}, the ray says {}", s.ray.time))?;
+    let [open, close] = camera.exposure();
+    let at = open + (close - open) * time;
+    let right = (s.ray.time - at).abs() <= f32::EPSILON && (s.ray.time == at || [open, close] != [0.0, 1.0]);
+    judge.require(right && (0.0..1.0).contains(&s.ray.time), "time", || {
+        format!("asked for {time} of {open} to {close}, the ray says {}", s.ray.time)
+    })?;
     judge.require(camera.ray(film, lens, time) == Some(*s), "pure", || {
         format!("another ray at {draw:?} when asked twice")
     })?;
