@@ -5,9 +5,9 @@
 //! says, and writes `gonioreflectometer.html` with polar plots of the lobes in the plane of incidence.
 //! Options: `--size N` (directions of a lobe), `--spp N` (detector rays of each of 8 runs), `--out FOLDER`.
 //!
-//! The BRDF of flat sheets is read exactly: nothing is left to chance. The grooves' sides are as matte as the sheet, but as a
-//! whole they are not: they throw more light back to where it comes from, since whoever looks along the light sees no
-//! shadow.
+//! The BRDF of flat sheets is read exactly: nothing is left to chance. The grooves' sides are of the same clay as the
+//! sheet, but as a whole they throw more light back to where it comes from, since whoever looks along the light sees
+//! no shadow.
 
 use std::error::Error;
 use std::path::PathBuf;
