@@ -28,7 +28,7 @@ const EDGES: &[(&str, &[&str])] = &[
     ("camera", &["core", "sampling", "geometry"]),
     ("scene", &["core", "geometry", "bvh", "bsdf", "texture", "material", "light"]),
     ("integrator", &["core", "sampling", "geometry", "bsdf", "light", "camera", "scene"]),
-    ("measure", &["core", "sampling", "camera", "scene", "integrator"]),
+    ("measure", &["core", "sampling", "geometry", "material", "light", "camera", "scene", "integrator"]),
 ];
 
 /// Crates of the registry that only one crate may name.

@@ -35,6 +35,12 @@ impl Measured {
         half.is_finite().then_some(half)
     }
 
+    /// The number in other units: times a positive factor.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        self.map_increasing(|x| factor * x)
+    }
+
     pub(crate) fn map_increasing(self, f: impl Fn(f64) -> f64) -> Self {
         Self { value: f(self.value), interval: self.interval.map(|i| i.map(&f)) }
     }

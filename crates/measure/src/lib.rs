@@ -5,6 +5,7 @@
 //!   variance, bias and the reference's own part. Everything has an interval.
 //! * [`compare`]: how far one picture is from a reference: RMSE, relMSE, trimmed.
 //! * [`flip`]: how different the two look to a viewer, pixel by pixel. [`colour_map`]: colours for such maps.
+//! * [`gonio`]: the BRDF of a material or of micro-geometry, measured.
 //! * [`report`]: plots, tables and pictures as one page.
 //!
 //! ```
@@ -54,8 +55,8 @@
 //! # Ok::<(), Box<dyn Error>>(())
 //! ```
 //!
-//! Limits: intervals rest on the scatter of a few runs; five are few, two say little. Uses core, sampling, camera, scene
-//! and integrator.
+//! Limits: intervals rest on the scatter of a few runs; five are few, two say little. Uses core, sampling, geometry,
+//! material, light, camera, scene and integrator.
 
 mod axes;
 pub mod colour_map;
@@ -64,6 +65,7 @@ mod contender;
 mod convergence;
 mod curve;
 pub mod flip;
+pub mod gonio;
 mod gram;
 mod interval;
 mod point;

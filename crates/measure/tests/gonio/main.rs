@@ -1,0 +1,6 @@
+//! The virtual gonioreflectometer against what it should read: BSDFs of flat sheets, closed forms of grooves and cavities.
+
+mod cavities;
+mod flat;
+mod grooves;
+mod support;
