@@ -7,8 +7,8 @@ use std::sync::Arc;
 use etendue_core::{Spectrum, Transform, Vec3A};
 use etendue_geometry::{Cylinder, Disc, Parallelogram, Sphere, presets};
 use etendue_light::{
-    DirectionalLight, GoniometricLight, IntensityTable, Light, MeshLight, ParallelogramLight, PointLight,
-    ShapeLight, SphereLight, SpotLight,
+    DirectionalLight, DiscLight, GoniometricLight, IntensityTable, Light, MeshLight, ParallelogramLight,
+    PointLight, ShapeLight, SphereLight, SpotLight,
 };
 use etendue_texture::Tex;
 use support::{Mean, Rng, irradiance, irradiance_of, polygon_irradiance, receiver};
@@ -212,6 +212,8 @@ fn disc_on_its_axis() {
         let (r2, d2) = (f64::from(r) * f64::from(r), f64::from(d.dot(d)));
         let e = std::f64::consts::PI * r2 / (r2 + d2);
         irradiance(&light, &receiver(foot, axis), n, i as u64).check(e, &format!("height {h} r"));
+        irradiance(&DiscLight::new(disc, ONE), &receiver(foot, axis), 300_000, 50 + i as u64)
+            .check(e, &format!("height {h} r, by solid angle"));
         let away = Disc::new(disc.center(), axis, r).expect("a disc");
         let away = ShapeLight::new(Arc::new(away), None, ONE, false);
         assert_eq!(irradiance(&away, &receiver(foot, axis), 1000, 9).error(), 0.0);
