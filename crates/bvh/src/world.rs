@@ -44,6 +44,12 @@ impl Instance {
         self
     }
 
+    /// Where it stands at a moment in `[0, 1]`.
+    #[inline]
+    pub fn placement(&self, time: f32) -> Transform {
+        self.motion.as_ref().map_or(self.to_world, |m| m.placement(&self.to_world, time))
+    }
+
     /// The ray in object space, with `t` as it is.
     #[inline]
     pub fn ray_to_object(&self, ray: &Ray) -> Ray {

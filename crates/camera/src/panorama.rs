@@ -56,8 +56,10 @@ impl Panorama {
     /// or not finite.
     pub fn film_position(&self, d: Vec3A) -> Option<Vec2> {
         let d = vector::try_normalize(d)?;
-        let [x, y, z, _] = self.to_world.columns();
-        let d = DVec3::new(f64::from(d.dot(x)), f64::from(d.dot(y)), f64::from(d.dot(z)));
+        // By the inverse, which is right for axes that are not square to each other too.
+        let d = self.to_world.inverse().vector(d);
+        let d = DVec3::new(f64::from(d.x), f64::from(d.y), f64::from(d.z));
+        let d = d / d.dot(d).sqrt();
         let p = match self.map {
             PanoramaMap::Equirectangular => to_equirectangular(d),
             PanoramaMap::EqualArea => to_equal_area(d),

@@ -31,6 +31,35 @@ fn film_positions_are_places_in_the_world() {
     }
 }
 
+/// All pixels see the same area across the view: 4 w h / (columns × rows), and together the whole picture.
+#[test]
+fn pixels_have_equal_areas() {
+    let wide = |v: Vec3A| [f64::from(v.x), f64::from(v.y), f64::from(v.z)];
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    };
+    let place = Transform::translation(Vec3A::new(1.0, 2.0, 3.0))
+        .after(&Transform::rotation(Vec3A::new(0.3, 1.0, 0.2), 0.9))
+        .unwrap();
+    let camera = Orthographic::stretched(place, 0.5, 4.0, SIZE).unwrap();
+    let at = |x: u32, y: u32| camera.ray(Vec2::new(x as f32, y as f32), Vec2::ZERO, 0.0).unwrap().ray;
+    let (pixel, mut sum) = (4.0 * 0.5 * 4.0 / f64::from(SIZE.x * SIZE.y), 0.0);
+    for (x, y) in (0..SIZE.y).flat_map(|y| (0..SIZE.x).map(move |x| (x, y))) {
+        let (corner, d) = (at(x, y), wide(at(x, y).d));
+        let side = |ray: etendue_core::Ray| {
+            let (a, b) = (wide(ray.o), wide(corner.o));
+            [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+        };
+        let n = cross(side(at(x + 1, y)), side(at(x, y + 1)));
+        // The part of the parallelogram that faces the view.
+        let area = (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]).abs();
+        // Corners are rounded to 2e-7 m, pixels are 0.016 m wide.
+        assert!((area / pixel - 1.0).abs() < 1e-4, "{x} {y}: {area} for {pixel}");
+        sum += area;
+    }
+    assert!((sum / (4.0 * 0.5 * 4.0) - 1.0).abs() < 1e-6, "{sum}");
+}
+
 #[test]
 fn looking_at_puts_the_target_in_the_middle() {
     let (from, to) = (Vec3A::new(3.0, 4.0, 5.0), Vec3A::new(0.0, 1.0, -1.0));

@@ -66,7 +66,15 @@ fn directions_are_where_the_maps_say() {
 fn there_and_back() {
     let turned =
         Transform::translation(EYE).after(&Transform::rotation(Vec3A::new(1.0, 2.0, 0.5), 0.7)).unwrap();
-    for map in [PanoramaMap::Equirectangular, PanoramaMap::EqualArea] {
+    let skew = Transform::from_columns(
+        Vec3A::new(2.0, 0.0, 0.5),
+        Vec3A::new(1.0, -1.0, 0.0),
+        Vec3A::new(0.0, 0.3, 1.0),
+        EYE,
+    )
+    .unwrap();
+    let maps = [PanoramaMap::Equirectangular, PanoramaMap::EqualArea];
+    for (map, turned) in maps.into_iter().flat_map(|m| [(m, turned), (m, skew)]) {
         let c = Panorama::new(turned, map, SIZE).unwrap();
         let (mut worst, mut off) = (0.0f32, 0.0f32);
         for i in 0..128 * 64 {
@@ -80,7 +88,7 @@ fn there_and_back() {
             for other in axes {
                 for k in [0.0, 1e-7, 1e-4, 0.3, 1.0] {
                     let Some(d) = vector::try_normalize(axis + other * k) else { continue };
-                    let d = turned.vector(d);
+                    let d = vector::normalize(turned.vector(d));
                     let film = c.film_position(d).unwrap();
                     assert!(film.cmpge(Vec2::ZERO).all() && film.x <= 64.0 && film.y <= 32.0, "{film}");
                     let again = c.ray(film, Vec2::ZERO, 0.0).unwrap().ray.d;

@@ -6,7 +6,8 @@ use std::f64::consts::PI;
 use etendue_core::{Spectrum, Transform, Vec3A};
 use etendue_io::Limits;
 use etendue_io::ies::{IesError, IesProfile, load, read};
-use etendue_light::{GoniometricLight, Light};
+use etendue_light::Light;
+use etendue_scene::SceneBuilder;
 use proptest::prelude::*;
 
 /// 1000 cd · cos θ downward in steps of 10°, with everything that a file can have.
@@ -32,9 +33,10 @@ fn parse(text: &str) -> Result<IesProfile, IesError> {
 #[test]
 fn all_versions_tilts_and_symmetries_are_read() {
     let include = "INCLUDE\r\n1\r\n3\r\n0 90 180\r\n1.0 0.9 0.8";
-    for version in ["IESNA:LM-63-1995", "IESNA:LM-63-2002", "IES:LM-63-2019", "IESNA91"] {
-        for tilt in ["NONE", include] {
-            for h in [&[0][..], &[0, 45, 90], &[0, 90, 180], &[0, 90, 180, 270, 360]] {
+    let around = [&[0, 90, 180, 270, 360][..], &[0, 90, 180, 270], &[0, 60, 170, 260]];
+    for version in ["IESNA:LM-63-1995", "IESNA:LM-63-2002", "IESNA91", "\u{feff}IESNA91", "A lamp of 1986"] {
+        for tilt in ["NONE", include, "LAMP.TLT"] {
+            for h in [&[0][..], &[0, 45, 90], &[0, 90, 180], &[90, 180, 270]].into_iter().chain(around) {
                 let lamp = parse(&cosine(version, tilt, h)).unwrap();
                 assert_eq!(lamp.keyword("test"), Some("no. 1"));
                 assert_eq!((lamp.keyword("MANUFAC"), lamp.keywords.len()), (Some("étendue works"), 3));
@@ -48,6 +50,43 @@ fn all_versions_tilts_and_symmetries_are_read() {
             }
         }
     }
+    // No label at all.
+    let bare = cosine("", "NONE", &[0]);
+    let bare = bare.get(bare.find("TILT").unwrap()..).unwrap();
+    assert_eq!(parse(bare).unwrap().keywords, []);
+}
+
+/// In 2019 the second factor became a code for how the file came about (1.1 is a measurement by an accredited
+/// laboratory): taken for a factor, it makes a tenth more light than there is.
+#[test]
+fn the_generation_type_is_no_factor() {
+    let at = |version: &str, second: &str| {
+        let text = format!("{version}\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n0.5 {second} 5\n0 90\n0\n8 0\n");
+        parse(&text).map(|l| l.table.max())
+    };
+    for code in ["1.00001", "1.1", "1.00000", "0"] {
+        assert_eq!(at("IES:LM-63-2019", code).unwrap(), 4.0);
+    }
+    assert_eq!(at("IESNA:LM-63-2002", "1.1").unwrap(), 8.0 * 0.5 * 1.1);
+    assert_eq!(at("IESNA91", "0.25").unwrap(), 1.0);
+    assert!(at("IESNA91", "0").is_err());
+}
+
+/// Where 360° is left out it is 0° again; half a circle from 90° is mirrored at that plane.
+#[test]
+fn circles_are_closed() {
+    let at = |angles: &str, n: usize, rows: &str| {
+        let text = format!("IESNA91\nTILT=NONE\n1 -1 1 2 {n} 1 2 0 0 0\n1 1 5\n0 180\n{angles}\n{rows}\n");
+        parse(&text).map(|l| l.table)
+    };
+    let open = at("0 100 200 260", 4, "1 1 2 2 3 3 5 5").unwrap();
+    assert_eq!(open.horizontal(), [0.0, 100.0, 200.0, 260.0, 360.0]);
+    assert_eq!((open.at(20.0, 310.0), open.at(20.0, 360.0), open.at(20.0, -50.0)), (3.0, 1.0, 3.0));
+    let sides = at("90 180 270", 3, "1 1 2 2 3 3").unwrap();
+    assert_eq!((sides.at(20.0, 0.0), sides.at(20.0, 90.0), sides.at(20.0, 315.0)), (2.0, 1.0, 2.5));
+    // Most of a circle is not one.
+    let e = at("0 80 190", 3, "1 1 2 2 3 3").expect_err("a gap of 170 degrees");
+    assert!(e.to_string().contains("0, 90, 180 or 360"), "{e}");
 }
 
 /// A lamp of 683 cd straight down is 1 W/sr there.
@@ -55,11 +94,7 @@ fn all_versions_tilts_and_symmetries_are_read() {
 fn a_file_lights_a_floor() {
     let text = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0 1 1 5\n0 45 90\n0\n683 683 0\n";
     let lamp = parse(text).unwrap();
-    let light = GoniometricLight::new(
-        &Transform::translation(Vec3A::Y * 2.0),
-        lamp.table,
-        Spectrum::gray(1.0 / 683.0),
-    );
+    let light = lamp.light(&Transform::translation(Vec3A::Y * 2.0), Spectrum::ONE);
     let s = light.sample(&floor(Vec3A::ZERO), 0, etendue_core::Vec2::ZERO).unwrap();
     assert!((s.li.r() - 0.25).abs() < 1e-6, "{:?}", s.li);
     assert_eq!(lamp.lumens_per_lamp, -1.0);
@@ -77,10 +112,11 @@ fn errors_name_the_line() {
     assert_eq!(commas.table.values(), [1.0, 1.0]);
     let head = "IESNA:LM-63-1995\n[A] b\nTILT=NONE\n";
     let cases = [
-        ("", 1, "first line"),
-        ("LM-63\nTILT=NONE\n", 1, "first line"),
+        ("", 1, "TILT="),
+        ("LM-63\nTILT=NONE\n", 2, "cut off"),
+        ("IESNA:LM-63-2050\nTILT=NONE\n", 1, "first line"),
         ("IESNA:LM-63-1995\n[A] b\n", 2, "TILT="),
-        ("IESNA:LM-63-1995\nTILT=lamp.tlt\n1\n", 2, "NONE or INCLUDE"),
+        ("IESNA:LM-63-1995\nTILT= \n1\n", 2, "NONE, INCLUDE or"),
         (&format!("{head}1 1000 1 2 1 3 2 0 0 0 1 1 5\n0 90\n0\n1 1\n"), 4, "type C"),
         (&format!("{head}1 1000 1 2 1 1 3 0 0 0 1 1 5\n0 90\n0\n1 1\n"), 4, "unit of lengths"),
         (&format!("{head}1 1000 0 2 1 1 2 0 0 0 1 1 5\n0 90\n0\n1 1\n"), 4, "multiplier"),
@@ -143,12 +179,15 @@ proptest! {
     /// Any damage gives a sound lamp or a typed error.
     #[test]
     fn damaged_files_are_lamps_or_errors(
+        version in prop::sample::select(vec!["IESNA:LM-63-1995", "IESNA91", "IES:LM-63-2019", "a lamp"]),
+        tilt in prop::sample::select(vec!["NONE", "INCLUDE\n1 1 0 1", "lamp.tlt"]),
+        angles in prop::sample::select(vec![&[0u32, 45, 90][..], &[0], &[90, 270], &[0, 100, 200, 300]]),
         damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0u32..4), 1..6),
         words in prop::collection::vec((any::<prop::sample::Index>(), prop::sample::select(vec![
             "-1", "0", "1e39", "nan", "-inf", "4294967296", "99999999999999999999", "x", "36001", "",
         ])), 0..3),
     ) {
-        let mut text: Vec<String> = cosine("IESNA:LM-63-1995", "INCLUDE\n1 1 0 1", &[0, 45, 90]).split(' ').map(String::from).collect();
+        let mut text: Vec<String> = cosine(version, tilt, angles).split(' ').map(String::from).collect();
         for (at, word) in words {
             let i = at.index(text.len());
             text[i] = word.into();
@@ -165,8 +204,11 @@ proptest! {
         }
         if let Ok(lamp) = read("damaged", &bytes, &Limits::default()) {
             prop_assert!(lamp.lumens().is_finite() && lamp.lumens() >= 0.0);
-            let light = GoniometricLight::new(&Transform::IDENTITY, lamp.table, Spectrum::ONE);
-            prop_assert!(light.power(0, 1.0).to_array().iter().all(|p| *p >= 0.0));
+            let light = lamp.light(&Transform::IDENTITY, Spectrum::ONE);
+            prop_assert!(light.power(0, 1.0).to_array().iter().all(|p| *p >= 0.0 && p.is_finite()));
+            let mut b = SceneBuilder::new();
+            b.light(light);
+            prop_assert!(b.build().is_ok());
         }
     }
 }

@@ -119,7 +119,7 @@ pub(crate) fn infinite_power(integral: Spectrum, scene_radius: f32) -> Spectrum 
 }
 
 /// Each channel times a factor, rounded once.
-fn held_power(radiance: Spectrum, factor: f64) -> Spectrum {
+pub(crate) fn held_power(radiance: Spectrum, factor: f64) -> Spectrum {
     // What shines keeps a power that single precision can hold, however small or large the scene.
     let held = |p: f64| {
         if p > 0.0 { p.clamp(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)) as f32 } else { 0.0 }

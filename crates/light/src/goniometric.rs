@@ -3,7 +3,7 @@ use std::sync::Arc;
 use etendue_core::{Aabb, Fingerprint, Frame, Needs, Origin, Spectrum, Transform, Vec2, Vec3A, vector};
 use etendue_geometry::Surface;
 
-use crate::emitter::{is_behind, positive, toward};
+use crate::emitter::{held_power, is_behind, positive, toward};
 use crate::{IntensityTable, Light, LightBounds, LightSample, LitPoint};
 
 /// A point that shines as a lamp was measured to: by a table of intensities, such as an IES file holds.
@@ -61,7 +61,7 @@ impl Light for GoniometricLight {
 
     /// The table's integral in closed form.
     fn power(&self, _part: u32, _scene_radius: f32) -> Spectrum {
-        self.scale.map(|i| (f64::from(i) * self.integral) as f32)
+        held_power(self.scale, self.integral)
     }
 
     fn bounds(&self, part: u32) -> Option<LightBounds> {

@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
-use etendue_core::math::wide::sin_cos;
-use etendue_core::{Fingerprint, Vec3A, math};
+use etendue_core::math::wide::{atan2, sin_cos};
+use etendue_core::{Fingerprint, Vec3A};
 
 /// Why numbers are no table of intensities.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -48,6 +48,8 @@ enum Symmetry {
     Quarters,
     /// 0 to 180°: mirrored at the plane of 0 and 180°.
     Halves,
+    /// 90 to 270°: mirrored at the plane of 90 and 270°.
+    Sides,
     /// 0 to 360°.
     None,
 }
@@ -66,8 +68,9 @@ pub struct IntensityTable {
 }
 
 impl IntensityTable {
-    /// A table of `values[h * vertical.len() + v]`, angles in degrees. The horizontal angles begin with 0; the last one
-    /// tells the symmetry: 0 (round), 90 (mirrored twice), 180 (mirrored) or 360 (none).
+    /// A table of `values[h * vertical.len() + v]`, angles in degrees. The horizontal angles begin with 0, and the last
+    /// one tells the symmetry: 0 (round), 90 (mirrored twice), 180 (mirrored) or 360 (none); or they go from 90 to 270
+    /// (mirrored at the plane of those two).
     ///
     /// # Errors
     /// [`IntensityTableError`] where there are fewer than two vertical angles, angles do not ascend within their range
@@ -88,17 +91,19 @@ impl IntensityTable {
             (Some(&first), Some(&last)) => (first, last),
             _ => return wrong("horizontal", 0, f32::NAN, "there must be one or more"),
         };
-        if first != 0.0 {
-            return wrong("horizontal", 0, first, "the first must be 0");
-        }
-        let symmetry = match last {
-            0.0 => Symmetry::Round,
-            90.0 => Symmetry::Quarters,
-            180.0 => Symmetry::Halves,
-            360.0 => Symmetry::None,
-            _ => {
+        let symmetry = match (first, last) {
+            (0.0, 0.0) => Symmetry::Round,
+            (0.0, 90.0) => Symmetry::Quarters,
+            (0.0, 180.0) => Symmetry::Halves,
+            (0.0, 360.0) => Symmetry::None,
+            (90.0, 270.0) => Symmetry::Sides,
+            (0.0, _) => {
                 return wrong("horizontal", horizontal.len() - 1, last, "the last must be 0, 90, 180 or 360");
             }
+            (90.0, _) => {
+                return wrong("horizontal", horizontal.len() - 1, last, "from 90 on, the last must be 270");
+            }
+            _ => return wrong("horizontal", 0, first, "the first must be 0, or 90 with 270 as the last"),
         };
         if vertical.len().checked_mul(horizontal.len()) != Some(values.len()) {
             let (vertical, horizontal) = (vertical.len(), horizontal.len());
@@ -133,9 +138,10 @@ impl IntensityTable {
     /// The intensity along a direction of the lamp's own space, of any length: `z` is up, horizontal angles go from `x`
     /// toward `y`.
     pub fn along(&self, d: Vec3A) -> f32 {
-        let across = (d.x * d.x + d.y * d.y).sqrt();
-        let vertical = math::atan2(across, -d.z).to_degrees();
-        let around = math::atan2(d.y, d.x).to_degrees();
+        // In double precision the squares of any length are in range.
+        let (x, y, z) = (f64::from(d.x), f64::from(d.y), f64::from(d.z));
+        let vertical = atan2((x * x + y * y).sqrt(), -z).to_degrees() as f32;
+        let around = atan2(y, x).to_degrees() as f32;
         // Straight up is a rounding of 180°, which must not fall off the table.
         self.at(if vertical < 180.0 { vertical } else { 180.0 }, around)
     }
@@ -148,6 +154,8 @@ impl IntensityTable {
             Symmetry::Round => 0.0,
             Symmetry::Quarters => mirrored(mirrored(h, 180.0), 90.0),
             Symmetry::Halves => mirrored(h, 180.0),
+            Symmetry::Sides if h < 90.0 => 180.0 - h,
+            Symmetry::Sides => mirrored(h, 270.0),
             Symmetry::None => h,
         };
         let (Some(v), Some(h)) = (between(&self.vertical, vertical), between(&self.horizontal, h)) else {
@@ -170,7 +178,7 @@ impl IntensityTable {
         let copies = match self.symmetry {
             Symmetry::Round => return TAU * first,
             Symmetry::Quarters => 4.0,
-            Symmetry::Halves => 2.0,
+            Symmetry::Halves | Symmetry::Sides => 2.0,
             Symmetry::None => 1.0,
         };
         let widths = self.horizontal.windows(2).map(|w| (f64::from(w[1]) - f64::from(w[0])).to_radians());

@@ -21,6 +21,7 @@
 //! | [`MeshLight`] | its triangles | solid angle, or area where that is very small or nearly a hemisphere |
 //! | [`ParallelogramLight`] | 1 | solid angle if it is a rectangle, else area |
 //! | [`SphereLight`] | 1 | the cone it fills |
+//! | [`DiscLight`] | 1 | nearly by solid angle, or area where it is seen edge-on |
 //! | [`ShapeLight`] | 1 | area |
 //! | [`ConstantEnvironment`] | 1 | the cosine at the receiver, or uniformly |
 //! | [`ImageEnvironment`] | 1 | its radiance |
@@ -37,6 +38,7 @@
 
 mod constant_environment;
 mod directional;
+mod disc;
 mod emitter;
 mod error;
 mod goniometric;
@@ -59,6 +61,7 @@ mod unpicked;
 
 pub use constant_environment::ConstantEnvironment;
 pub use directional::DirectionalLight;
+pub use disc::DiscLight;
 pub use error::EnvironmentError;
 pub use goniometric::GoniometricLight;
 pub use image_environment::ImageEnvironment;

@@ -1,7 +1,7 @@
 use etendue_core::{Aabb, Fingerprint, Needs, Origin, Spectrum, Vec2, Vec3A};
 use etendue_geometry::Surface;
 
-use crate::emitter::{is_behind, positive, toward};
+use crate::emitter::{held_power, is_behind, positive, toward};
 use crate::{Light, LightBounds, LightSample, LitPoint};
 
 /// A point that shines equally in all directions.
@@ -37,7 +37,7 @@ impl Light for PointLight {
     }
 
     fn power(&self, _part: u32, _scene_radius: f32) -> Spectrum {
-        positive(self.intensity) * (4.0 * std::f32::consts::PI)
+        held_power(positive(self.intensity), f64::from(4.0 * std::f32::consts::PI))
     }
 
     fn bounds(&self, part: u32) -> Option<LightBounds> {

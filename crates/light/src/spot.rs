@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use etendue_core::{Aabb, Fingerprint, Needs, Origin, Spectrum, Vec2, Vec3A, math, vector};
 use etendue_geometry::Surface;
 
-use crate::emitter::{is_behind, positive, toward};
+use crate::emitter::{held_power, is_behind, positive, toward};
 use crate::{Light, LightBounds, LightSample, LitPoint};
 
 /// A point that shines into a cone, as KHR_lights_punctual means it: with `c` the cosine to the axis, the intensity is
@@ -83,8 +83,7 @@ impl Light for SpotLight {
 
     /// In closed form: `2π I (1 − cos i + (cos i − cos o) / 3)` for cones wide enough.
     fn power(&self, _part: u32, _scene_radius: f32) -> Spectrum {
-        let solid_angle = self.solid_angle();
-        self.intensity.map(|i| (f64::from(i) * solid_angle) as f32)
+        held_power(self.intensity, self.solid_angle())
     }
 
     fn bounds(&self, part: u32) -> Option<LightBounds> {

@@ -6,10 +6,10 @@ mod support;
 use std::sync::Arc;
 
 use etendue_core::{Origin, Ray, Spectrum, Transform, Vec2, Vec3, Vec3A};
-use etendue_geometry::{Parallelogram, Shape, Sphere, Surface, TriangleMesh, presets};
+use etendue_geometry::{Disc, Parallelogram, Shape, Sphere, Surface, TriangleMesh, presets};
 use etendue_light::{
-    ConstantEnvironment, Light, LightSample, LitPoint, MeshLight, ParallelogramLight, PointLight, ShapeLight,
-    Sides, SphereLight,
+    ConstantEnvironment, DiscLight, Light, LightSample, LitPoint, MeshLight, ParallelogramLight, PointLight,
+    ShapeLight, Sides, SphereLight,
 };
 use etendue_sampling::warp;
 use etendue_texture::{Encoding, Filter, ImageTexture, Tex};
@@ -78,12 +78,13 @@ fn any_receiver() -> impl Strategy<Value = LitPoint> {
 
 /// All lights of the crate that stand somewhere, around the origin.
 fn any_light() -> impl Strategy<Value = Shown> {
-    (0..6, any_point(1.0), any_point(1.0), any_point(1.0), any::<bool>()).prop_filter_map(
+    (0..7, any_point(1.0), any_point(1.0), any_point(1.0), any::<bool>()).prop_filter_map(
         "an area",
         |(kind, a, b, c, two_sided)| {
             let shape = Parallelogram::new(a, b, c).ok()?;
             let square = Parallelogram::new(a, Vec3A::X * 0.7, Vec3A::Z * 0.3).ok()?;
             let sphere = Sphere::new(a, b.x.abs() + 1e-3).ok()?;
+            let disc = Disc::new(a, b, c.x.abs() + 1e-3).ok()?;
             let stretched = Transform::scale(Vec3A::new(1.0, -2.0, 0.25)).ok()?;
             let mesh = Arc::new(presets::quad(a, b, c));
             Some(Shown(match kind {
@@ -92,6 +93,7 @@ fn any_light() -> impl Strategy<Value = Shown> {
                 2 => Arc::new(MeshLight::new(mesh, Some(stretched), ONE, two_sided)),
                 3 => Arc::new(ParallelogramLight::new(square, ONE).with_two_sided(two_sided)),
                 4 => Arc::new(SphereLight { two_sided, ..SphereLight::new(sphere, ONE) }),
+                5 => Arc::new(DiscLight { two_sided, ..DiscLight::new(disc, ONE) }),
                 _ => Arc::new(ShapeLight::new(Arc::new(shape), Some(stretched), ONE, two_sided)),
             }))
         },
@@ -242,7 +244,9 @@ fn scaling_by_powers_of_two_is_exact() {
             let shape = Parallelogram::new(p[0], p[1], p[2]).expect("an area");
             let flat = Parallelogram::new(p[0], Vec3A::X * scale, Vec3A::Y * scale).expect("an area");
             let sphere = Sphere::new(p[0], 0.3 * scale).expect("a sphere");
-            let lights: [Arc<dyn Light>; 7] = [
+            let disc = Disc::new(p[0], p[1], 0.3 * scale).expect("a disc");
+            let lights: [Arc<dyn Light>; 8] = [
+                Arc::new(DiscLight { two_sided: true, ..DiscLight::new(disc, ONE) }),
                 Arc::new(PointLight::new(p[3], Spectrum::gray(scale * scale))),
                 Arc::new(MeshLight::new(mesh.clone(), None, ONE, true)),
                 Arc::new(MeshLight::new(mesh, Some(m), ONE, true)),

@@ -49,6 +49,11 @@ fn tables_are_bilinear() {
     for tiny in [1e-30f32, -1e-30, 1e-8] {
         assert!((whole.along(Vec3A::new(tiny, -tiny, 1.0)) - 3.0).abs() < 1e-6);
     }
+    // The length does not matter, up to the ends of single precision.
+    for length in [1e-38f32, 1e-20, 1.0, 1e20, 1e38] {
+        let (low, level) = (Vec3A::new(1.0, 0.0, -1.0) * length, Vec3A::new(-1.0, 1.0, 0.0) * length);
+        assert!((whole.along(low) - 1.5).abs() < 1e-6 && (whole.along(level) - 2.0).abs() < 1e-6);
+    }
     let upper = table(&[90.0, 180.0], &[0.0], &[1.0, 1.0]);
     assert_eq!((upper.at(89.0, 0.0), upper.at(90.0, 0.0), upper.at(180.0, 5.0)), (0.0, 1.0, 1.0));
 }
@@ -75,8 +80,24 @@ fn symmetries() {
         assert_eq!(round.at(30.0, h), 7.0);
     }
     assert!((halves.at(30.0, 135.0) - 2.5).abs() < 1e-6 && (halves.at(30.0, 225.0) - 2.5).abs() < 1e-6);
+    // From 90 to 270 the mirror stands across: 0 is where 180 is.
+    let sides = table(&v, &[90.0, 135.0, 270.0], &rows(3));
+    for (h, truth) in
+        [(90.0f32, 0.0f32), (100.0, 10.0 / 45.0), (135.0, 1.0), (180.0, 4.0 / 3.0), (270.0, 2.0)]
+    {
+        for image in [h, 180.0 - h, 540.0 - h] {
+            let found = sides.at(30.0, if image > 360.0 { image - 360.0 } else { image });
+            assert!((found - truth).abs() < 1e-6, "{h} {image}: {found} for {truth}");
+        }
+    }
     // The integral counts the copies: constants are 4π.
-    for (t, n) in [(&[0.0][..], 2), (&[0.0, 90.0], 4), (&[0.0, 10.0, 180.0], 6), (&[0.0, 360.0], 4)] {
+    for (t, n) in [
+        (&[0.0][..], 2),
+        (&[0.0, 90.0], 4),
+        (&[0.0, 10.0, 180.0], 6),
+        (&[0.0, 360.0], 4),
+        (&[90.0, 200.0, 270.0], 6),
+    ] {
         let t = table(&v, t, &vec![2.0; n]);
         assert!((t.integral() / (8.0 * PI) - 1.0).abs() < 1e-12, "{}", t.integral());
     }
@@ -101,7 +122,13 @@ fn power_is_the_integral() {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f32 / 16_777_216.0
     };
-    for h in [&[0.0][..], &[0.0, 20.0, 90.0], &[0.0, 100.0, 180.0], &[0.0, 30.0, 200.0, 360.0]] {
+    for h in [
+        &[0.0][..],
+        &[0.0, 20.0, 90.0],
+        &[0.0, 100.0, 180.0],
+        &[0.0, 30.0, 200.0, 360.0],
+        &[90.0, 130.0, 270.0],
+    ] {
         let v = [10.0, 35.0, 90.0, 140.0];
         let values: Vec<f32> = (0..v.len() * h.len()).map(|_| next()).collect();
         let t = table(&v, h, &values);
@@ -231,6 +258,9 @@ fn what_is_no_table_is_refused() {
         (&[0.0, 181.0], &[0.0], 2),
         (&[0.0, 90.0], &[0.0, 45.0], 4),
         (&[0.0, 90.0], &[90.0], 2),
+        (&[0.0, 90.0], &[90.0, 180.0], 4),
+        (&[0.0, 90.0], &[10.0, 370.0], 4),
+        (&[0.0, 90.0], &[45.0, 225.0], 4),
         (&[0.0, 90.0], &[0.0, 200.0, 100.0, 360.0], 8),
     ] {
         let e = new(v, h, n).expect_err("no angles");

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use etendue_core::{Motion, Ray, Spectrum, Transform, Vec3A, vector};
 use etendue_geometry::{Cylinder, Disc, Parallelogram, Shape, Sphere};
 use etendue_light::{
-    ConstantEnvironment, ImageEnvironment, Light, LightId, LitPoint, MeshLight, MovingLight,
+    ConstantEnvironment, DiscLight, ImageEnvironment, Light, LightId, LitPoint, MeshLight, MovingLight,
     ParallelogramLight, PointLight, PowerPicker, ShapeLight, Sides, SphereLight, UniformPicker,
 };
 use etendue_testkit::{Budget, Seen, check_light, check_picker, lit_point};
 use etendue_texture::{ImageTexture, Tex};
 
 /// Lights, pickers and seeds that share one level.
-const CALLS: usize = 36;
+const CALLS: usize = 38;
 
 fn budgets() -> impl Iterator<Item = Budget> {
     (1..=2).map(|seed| Budget::default().shared(CALLS).seed(seed).effort(0.2))
@@ -62,6 +62,7 @@ fn every_light_keeps_the_contract() {
     let disc = Disc::new(Vec3A::new(0.1, 0.2, -0.1), Vec3A::new(0.2, -1.0, 0.1), 0.5).expect("a disc");
     check_on("disc", &ShapeLight::new(Arc::new(disc), None, white(), false), &disc);
     check_on("disc, both sides", &ShapeLight::new(Arc::new(disc), None, white(), true), &disc);
+    check_on("disc by solid angle", &DiscLight::new(disc, white()), &disc);
     let tube = Cylinder::new(Vec3A::new(-0.4, 0.1, -0.2), Vec3A::new(0.5, 0.4, 0.1), 0.3).expect("a tube");
     // Of the outside alone: through its ends it would hide a part of its own inside.
     check_on("cylinder", &ShapeLight::new(Arc::new(tube), None, white(), false), &tube);

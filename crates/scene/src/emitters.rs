@@ -3,7 +3,7 @@ use std::sync::Arc;
 use etendue_core::{Fingerprint, Needs, Transform};
 use etendue_geometry::{Geometry, Shape};
 use etendue_light::{
-    Light, LightId, MeshLight, MovingLight, ParallelogramLight, ShapeLight, SphereLight, Unpicked,
+    DiscLight, Light, LightId, MeshLight, MovingLight, ParallelogramLight, ShapeLight, SphereLight, Unpicked,
 };
 use etendue_texture::Texture;
 
@@ -171,7 +171,8 @@ fn light_of(
         Geometry::Parallelogram(p) => {
             Arc::new(ParallelogramLight::new(*p, radiance).with_two_sided(two_sided))
         }
-        Geometry::Disc(s) => by_area(Arc::new(*s))?,
+        Geometry::Disc(s) if to_world.is_some() => by_area(Arc::new(*s))?,
+        Geometry::Disc(s) => Arc::new(DiscLight { two_sided, ..DiscLight::new(*s, radiance) }),
         Geometry::Cylinder(s) if s.length().is_finite() => by_area(Arc::new(*s))?,
         Geometry::Cylinder(_) => {
             return Err(cannot("a cylinder without ends has no finite power; give it ends"));

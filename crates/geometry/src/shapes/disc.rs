@@ -71,8 +71,8 @@ impl Disc {
         Axes { x, y: n.cross(x), n }
     }
 
-    /// From the centre in units of the radius, within the plane.
-    fn parameters(&self, from_center: DVec3) -> Vec2 {
+    /// The `uv` of a point within the plane, from its displacement from the centre.
+    pub fn parameters(&self, from_center: DVec3) -> Vec2 {
         let axes = self.axes();
         let half = 0.5 / f64::from(self.radius);
         let at = |axis: DVec3| (0.5 + from_center.dot(axis) * half) as f32;

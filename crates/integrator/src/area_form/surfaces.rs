@@ -98,7 +98,7 @@ impl Surfaces {
         let world = scene.world();
         let chosen = self.choice.as_ref()?.sample(u.geometry);
         let Placed { inst, geom } = *self.placed.get(chosen.index)?;
-        let to_world = world.instances.get(inst as usize).map(|i| i.to_world);
+        let to_world = world.instances.get(inst as usize).map(|i| i.placement(time));
         let stretch = |n: Vec3A| to_world.as_ref().map_or(1.0, |m| m.area_scale(n));
         let (uv, prim, ray, t, pdf_object, n) = match world.geometries.get(geom as usize)? {
             Geometry::Mesh(mesh) => {

@@ -1,6 +1,7 @@
 use std::sync::Arc;
 
-use etendue_light::{IntensityTable, IntensityTableError};
+use etendue_core::{Spectrum, Transform};
+use etendue_light::{GoniometricLight, IntensityTable, IntensityTableError};
 
 use super::IesError;
 use super::numbers::Numbers;
@@ -10,6 +11,8 @@ use crate::Limits;
 const ANGLES: u32 = 36_001;
 /// Most pairs of a tilt table.
 const TILTS: u32 = 10_000;
+/// The luminous efficacy of green light of 555 nm.
+const LUMENS_PER_WATT: f32 = 683.0;
 
 /// A measured lamp.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +41,12 @@ impl IesProfile {
     pub fn lumens(&self) -> f64 {
         self.table.integral()
     }
+
+    /// The lamp as a light, placed as [`GoniometricLight::new`] says. One candela is 1/683 W·sr⁻¹ of each channel, as in
+    /// glTF files, times `colour`.
+    pub fn light(&self, to_world: &Transform, colour: Spectrum) -> GoniometricLight {
+        GoniometricLight::new(to_world, self.table.clone(), colour * (1.0 / LUMENS_PER_WATT))
+    }
 }
 
 pub(super) fn read(name: &str, bytes: &[u8], limits: &Limits) -> Result<IesProfile, IesError> {
@@ -46,15 +55,44 @@ pub(super) fn read(name: &str, bytes: &[u8], limits: &Limits) -> Result<IesProfi
     parse(&text, limits, &mut line).map_err(|what| IesError::Line { file: name.into(), line, what })
 }
 
+/// What the standard's editions differ in.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Edition {
+    /// 1986 to 2002: the number after the ballast factor is a factor too (1 from 1995 on).
+    Factors,
+    /// 2019: that number says how the file came about.
+    Generation,
+}
+
+/// The edition by the first line, and whether that line said it: in 1986 the file began with its labels.
+fn edition(first: &str) -> Result<(Edition, bool), String> {
+    match first {
+        "IES:LM-63-2019" => Ok((Edition::Generation, true)),
+        "IESNA:LM-63-2002" | "IESNA:LM-63-1995" | "IESNA91" => Ok((Edition::Factors, true)),
+        other if other.starts_with("IES") => {
+            let shown: String = other.chars().take(24).collect();
+            Err(format!(
+                "the first line is `{shown}`; it must be IES:LM-63-2019, IESNA:LM-63-2002, IESNA:LM-63-1995 or \
+                 IESNA91, or a label, as in 1986"
+            ))
+        }
+        _ => Ok((Edition::Factors, false)),
+    }
+}
+
 /// `at` is the line that is read, for the error.
 fn parse(text: &str, limits: &Limits, at: &mut usize) -> Result<IesProfile, String> {
-    let mut lines = (1usize..).zip(text.lines());
-    let (_, first) = lines.next().unwrap_or((1, ""));
-    let first = first.trim_start_matches('\u{feff}').trim();
-    if !["IESNA:LM-63-1995", "IESNA:LM-63-2002", "IES:LM-63-2019", "IESNA91"].contains(&first) {
-        return Err(
-            "the first line must be IESNA:LM-63-1995, IESNA:LM-63-2002, IES:LM-63-2019 or IESNA91".into()
-        );
+    let most = limits.line_bytes;
+    // The limit is a promise, though long lines are no danger to what is read of them.
+    if let Some((number, _)) = (1usize..).zip(text.lines()).find(|(_, l)| l.len() > most) {
+        *at = number;
+        return Err(format!("the line is longer than {most} bytes"));
+    }
+    let text = text.trim_start_matches('\u{feff}');
+    let mut lines = (1usize..).zip(text.lines()).peekable();
+    let (edition, said) = edition(lines.peek().map_or("", |(_, first)| first.trim()))?;
+    if said {
+        lines.next();
     }
     let mut keywords = Vec::new();
     let tilt = loop {
@@ -62,9 +100,6 @@ fn parse(text: &str, limits: &Limits, at: &mut usize) -> Result<IesProfile, Stri
             return Err("the file ends before its TILT= line".into());
         };
         *at = number;
-        if line.len() > limits.line_bytes {
-            return Err(format!("the line is longer than {} bytes", limits.line_bytes));
-        }
         if let Some(tilt) = line.trim().strip_prefix("TILT=") {
             break tilt.trim();
         }
@@ -72,26 +107,13 @@ fn parse(text: &str, limits: &Limits, at: &mut usize) -> Result<IesProfile, Stri
             keywords.push((key.trim().to_owned(), value.trim().to_owned()));
         }
     };
-    let most = limits.line_bytes;
-    let mut numbers = Numbers::new(lines);
-    let read = (|| {
-        match tilt {
-            "NONE" => {}
-            "INCLUDE" => skip_tilt(&mut numbers)?,
-            _ => {
-                return Err(
-                    "TILT must be NONE or INCLUDE; a tilt table in a file of its own is not read".into()
-                );
-            }
-        }
-        body(&mut numbers, keywords)
-    })();
-    *at = numbers.line().max(*at);
-    // Long lines are no danger to what has been read of them: the limit is a promise all the same.
-    if let Some((number, _)) = (1usize..).zip(text.lines()).find(|(_, l)| l.len() > most) {
-        *at = number;
-        return Err(format!("the line is longer than {most} bytes"));
+    if tilt.is_empty() {
+        return Err("TILT= must be followed by NONE, INCLUDE or the name of a file".into());
     }
+    let mut numbers = Numbers::new(lines);
+    let included = if tilt == "INCLUDE" { skip_tilt(&mut numbers) } else { Ok(()) };
+    let read = included.and_then(|()| body(&mut numbers, keywords, edition));
+    *at = numbers.line().max(*at);
     read
 }
 
@@ -103,7 +125,11 @@ fn skip_tilt(numbers: &mut Numbers<'_>) -> Result<(), String> {
     numbers.list(pairs, "a tilt factor").map(drop)
 }
 
-fn body(numbers: &mut Numbers<'_>, keywords: Vec<(String, String)>) -> Result<IesProfile, String> {
+fn body(
+    numbers: &mut Numbers<'_>,
+    keywords: Vec<(String, String)>,
+    edition: Edition,
+) -> Result<IesProfile, String> {
     let lamps = numbers.next("the number of lamps")?;
     let lumens_per_lamp = numbers.next("the lumens per lamp")?;
     let multiplier = factor(numbers, "the candela multiplier")?;
@@ -123,10 +149,13 @@ fn body(numbers: &mut Numbers<'_>, keywords: Vec<(String, String)>) -> Result<Ie
         *s = numbers.next(what)? * unit;
     }
     let ballast = factor(numbers, "the ballast factor")?;
-    let ballast_lamp = factor(numbers, "the ballast-lamp factor")?;
+    let ballast_lamp = match edition {
+        Edition::Factors => factor(numbers, "the ballast-lamp factor")?,
+        Edition::Generation => numbers.next("the file's generation type").map(|_| 1.0)?,
+    };
     let watts = numbers.next("the input watts")?;
     let vertical_angles = angles(numbers, vertical, "a vertical angle")?;
-    let horizontal_angles = angles(numbers, horizontal, "a horizontal angle")?;
+    let mut horizontal_angles = angles(numbers, horizontal, "a horizontal angle")?;
     let mut values = Vec::new();
     for _ in 0..vertical.saturating_mul(horizontal) {
         let candela = numbers.next("an intensity")?;
@@ -136,9 +165,22 @@ fn body(numbers: &mut Numbers<'_>, keywords: Vec<(String, String)>) -> Result<Ie
         }
         values.push(v as f32);
     }
+    if is_open_circle(&horizontal_angles) {
+        horizontal_angles.push(360.0);
+        values.extend_from_within(..vertical_angles.len());
+    }
     let table = IntensityTable::new(vertical_angles, horizontal_angles, values)
         .map_err(|e: IntensityTableError| format!("the angles or intensities that end here: {e}"))?;
     Ok(IesProfile { table: Arc::new(table), keywords, lamps, lumens_per_lamp, watts, size })
+}
+
+/// Whether the angles go around and leave out 360°, which is 0° again: by the standard of 1995 the last one is below it.
+/// A gap larger than the steps is no such thing.
+fn is_open_circle(angles: &[f32]) -> bool {
+    let steps = angles.iter().zip(angles.iter().skip(1)).map(|(a, b)| b - a);
+    let widest = steps.fold(0.0, |m, step| if step > m { step } else { m });
+    let (first, last) = (angles.first().copied(), angles.last().copied());
+    first == Some(0.0) && last.is_some_and(|l| l > 180.0 && l < 360.0 && 360.0 - l <= 1.001 * widest)
 }
 
 fn factor(numbers: &mut Numbers<'_>, what: &str) -> Result<f32, String> {

@@ -14,9 +14,11 @@
 //! | [`triangle`] | 1 / area | Heitz 2019 |
 //! | [`SphericalTriangle`] | 1 / solid angle | Arvo 1995, area by Van Oosterom & Strackee 1983 |
 //! | [`SphericalRectangle`] | 1 / solid angle | Ureña, Fajardo & King 2013 |
+//! | [`SphericalDisc`] | (1 + cos to the rim) / (2π sin α sin β) | sectors of the projected ellipse |
 
 mod directional;
 mod planar;
+mod spherical_disc;
 mod spherical_rectangle;
 mod spherical_triangle;
 
@@ -25,6 +27,7 @@ pub use directional::{
     power_cosine_pdf, sphere,
 };
 pub use planar::{DISC_PDF, disc, triangle, triangle_sqrt};
+pub use spherical_disc::{DiscSample, SphericalDisc};
 pub use spherical_rectangle::{RectangleAxes, RectangleSample, SphericalRectangle};
 pub use spherical_triangle::{SphericalTriangle, TriangleSample};
 
