@@ -95,3 +95,23 @@ fn every_crate_forbids_unsafe_code() {
         assert!(text.contains("[lints]\nworkspace = true"), "{manifest} does not take the workspace's lints");
     }
 }
+
+/// The table of topics names tests that are there.
+#[test]
+fn documented_tests_exist() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(root.join("docs/textbook.md")).expect("the document");
+    let (mut file, mut seen) = (String::new(), 0);
+    for quoted in text.split('`').skip(1).step_by(2) {
+        let Some((path, name)) = quoted.split_once("::") else { continue };
+        if path.ends_with(".rs") {
+            file = path.to_owned();
+        } else if !path.is_empty() {
+            continue;
+        }
+        let source = std::fs::read_to_string(root.join(&file)).unwrap_or_else(|e| panic!("{file}: {e}"));
+        assert!(source.contains(&format!("fn {name}(")), "{file} has no test {name}");
+        seen += 1;
+    }
+    assert!(seen > 100, "{seen} tests are named");
+}

@@ -29,6 +29,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! | integrator | what it holds |
+//! |---|---|
+//! | [`PathTracer`] | all light; by directions alone, by lights, or by both ([`DirectLight`]); [`Roulette`], [`Branching`], cut-offs |
+//! | [`AreaForm`] | all light, as an integral over all surfaces; for comparing |
+//! | [`Whitted`] | direct light, and all of mirrors and clear glass |
+//! | [`RayCaster`] | what the first surface emits and reflects of the lights |
+//! | [`AmbientOcclusion`], [`FirstSurface`] | no light: how open the first surface is; its normal, depth, ids, albedo |
+//!
 //! Limits: surfaces in a vacuum; no media yet. Uses core, sampling, geometry, bsdf, light, camera and scene.
 
 mod ambient_occlusion;
