@@ -153,6 +153,48 @@ fn direct_is_path_with_one_scattering_event_and_no_bias() {
     assert!(sum(&dark) < sum(&direct));
 }
 
+/// Each by its name: full integrators are not biased, the others say what they leave out.
+#[test]
+fn integrators_are_the_ones_asked_for() {
+    let b = Bench::new("integrators");
+    let mut pictures = Vec::new();
+    for (word, says) in [
+        ("path", None),
+        ("path:roulette=0.7:branch=2", None),
+        ("path:roulette=albedo:from=2", None),
+        ("split", None),
+        ("area", None),
+        ("hemisphere", Some("point lights")),
+        ("path:threshold=0.1", Some("threshold=0.1")),
+        ("whitted:each=0", Some("whitted")),
+        ("raycast:shadows=off", Some("shadows")),
+        ("ao:reach=1", Some("not radiance")),
+        ("normal", Some("not radiance")),
+        ("depth", Some("not radiance")),
+        ("ids", Some("not radiance")),
+        ("triangles", Some("not radiance")),
+        ("albedo", Some("not radiance")),
+    ] {
+        b.good(&format!("render a.obj -o a.exr --size 12x12 --spp 2 --integrator {word} --json a.json"));
+        let report = b.json("a.json");
+        assert_eq!(report["integrator"], word);
+        match (says, report["bias"].as_array().expect("a list").as_slice()) {
+            (None, []) => {}
+            (Some(says), bias) => {
+                assert!(bias.iter().any(|b| b.as_str().is_some_and(|b| b.contains(says))), "{bias:?}")
+            }
+            (None, bias) => panic!("{word}: {bias:?}"),
+        }
+        let picture = read_picture(&b.path("a.exr"), &Limits::default()).expect("a picture").rgb;
+        assert!(picture.iter().flatten().any(|&v| v > 0.0), "{word}: all black");
+        assert!(!pictures.contains(&picture), "{word} is another one's picture");
+        pictures.push(picture);
+    }
+    let e = b.bad("render a.obj --integrator whitted:light=bsdf", 2);
+    assert!(e.contains("light=bsdf") && e.contains("raycast"), "{e}");
+    b.good("bench a.obj --size 8x8 --spp 2 --runs 2 --integrator path,whitted,area,path:branch=4 --json bench.json");
+}
+
 #[test]
 fn an_environment_lights_a_scene_without_lights() {
     let b = Bench::new("env");
