@@ -52,7 +52,7 @@ fn cavity(rho: f32, wall: f64) -> Specimen<'static> {
 }
 
 fn by(seed: u64, detector: f32) -> Gonioreflectometer {
-    Gonioreflectometer { samples: 256, runs: 8, seed, detector, ..Gonioreflectometer::default() }
+    Gonioreflectometer { samples: 128, runs: 8, seed, detector, ..Gonioreflectometer::default() }
 }
 
 /// Under a sky, seen from one direction; and under a beam, gathered from all. The mutants: a wall that lights itself
