@@ -34,8 +34,8 @@ fn disc_over(h: f32, aside: f32, p: Vec3A) -> (Disc, Vec3A) {
     (Disc::new(p + n * (h * r) + t * (aside * r), -n, r).expect("a disc"), n)
 }
 
-/// E = π ½ (1 − (h² + ρ² − r²) / √((h² + ρ² + r²)² − 4 r² ρ²)) on a plane parallel to the disc (Howell's catalogue of
-/// configuration factors, B-13), from the disc as it was rounded.
+/// E = π ½ (1 − (h² + ρ² − r²) / √((h² + ρ² + r²)² − 4 r² ρ²)) on a plane parallel to the disc, from the disc
+/// as it was rounded; against quadrature in `the_closed_form_is_the_integral`.
 fn parallel(disc: &Disc, p: Vec3A) -> f64 {
     let n = wide(disc.normal()).normalize();
     let c = wide(disc.center()) - wide(p);

@@ -60,14 +60,15 @@ fn the_rim_is_the_ellipse() {
 }
 
 /// What a receiver gets: across the axis π sin α sin β, in general that times the cosine to the axis, and parallel to
-/// the disc the configuration factor ½ (1 − (h² + ρ² − r²) / √((h² + ρ² + r²)² − 4 r² ρ²)) (Howell's catalogue, B-13).
+/// the disc the configuration factor ½ (1 − (h² + ρ² − r²) / √((h² + ρ² + r²)² − 4 r² ρ²)), which is checked by
+/// quadrature below.
 #[test]
 fn sines_and_axis_are_the_irradiance() {
     for (h, rho) in places() {
         let disc = overhead(h, rho).expect("not edge-on");
         let ([a, b], z) = (disc.sines(), disc.axis());
         let sum = h * h + rho * rho + 1.0;
-        // The difference in the catalogue's form, times its conjugate, so that no digits are lost.
+        // The difference times its conjugate, so that no digits are lost.
         let root = ((h * h + (rho - 1.0).powi(2)) * (h * h + (rho + 1.0).powi(2))).sqrt();
         let m = sum - 2.0;
         let factor = if m > 0.0 { 2.0 * h * h / (root * (root + m)) } else { 0.5 * (1.0 - m / root) };
@@ -76,7 +77,7 @@ fn sines_and_axis_are_the_irradiance() {
         let plain = 0.5 * (1.0 - m / (sum * sum - 4.0 * rho * rho).sqrt());
         assert!((factor - plain).abs() < 1e-6, "h {h} rho {rho}: {factor} for {plain}");
     }
-    // The catalogue's form itself, by rings and spokes over the disc.
+    // By rings and spokes over the disc.
     for (h, rho) in [(0.3, 0.0), (0.3, 0.9), (1.0, 0.5), (1.0, 2.0), (3.0, 4.0)] {
         let n = 2000;
         let mut sum = 0.0;
@@ -91,7 +92,6 @@ fn sines_and_axis_are_the_irradiance() {
         let e = sum * TAU / (f64::from(n) * 256.0);
         let [a, b] = overhead(h, rho).expect("not edge-on").sines();
         let found = PI * a * b * overhead(h, rho).expect("not edge-on").axis().y;
-        // h and rho are rounded to single precision.
         assert!((found / e - 1.0).abs() < 2e-6, "h {h} rho {rho}: {found} for {e}");
     }
 }

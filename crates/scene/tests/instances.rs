@@ -3,9 +3,10 @@
 mod common;
 
 use common::{gray, radiance, shared};
-use etendue_core::{Needs, Ray, Spectrum, Transform, Vec3, Vec3A};
-use etendue_geometry::{Geometry, Parallelogram, Sphere, TriangleMesh, presets};
+use etendue_core::{Needs, Ray, Spectrum, Transform, Vec2, Vec3, Vec3A};
+use etendue_geometry::{Disc, Geometry, Parallelogram, Sphere, TriangleMesh, presets};
 use etendue_integrator::{DirectLight, PathTracer};
+use etendue_light::{LitPoint, Sides};
 use etendue_scene::{Emission, Scene, SceneBuilder};
 use etendue_testkit::stats::welch_test;
 
@@ -110,6 +111,35 @@ fn placed_spheres_shine_like_flattened_ones() {
     let flat = Sphere::new(m.point(Vec3A::new(0.1, 0.0, 0.2)), 0.7 * 0.9).unwrap();
     let ball = Sphere::new(Vec3A::new(0.1, 0.0, 0.2), 0.9).unwrap();
     assert_same_light("sphere", &lit_by(ball.into(), Some(m), false), &lit_by(flat.into(), None, false));
+}
+
+/// A disc placed by an even scale is drawn by area, one that stands there itself by solid angle; both are one light.
+#[test]
+fn placed_discs_shine_like_flattened_ones() {
+    let m = placement(Vec3A::splat(0.7));
+    let (center, normal) = (Vec3A::new(0.1, 0.0, 0.2), m.inverse().vector(Vec3A::new(0.3, -0.2, -1.0)));
+    let flat = Disc::new(m.point(center), m.vector(normal), 0.7 * 0.9).unwrap();
+    let disc = Disc::new(center, normal, 0.9).unwrap();
+    let (placed, flat) = (lit_by(disc.into(), Some(m), true), lit_by(flat.into(), None, true));
+    assert_same_light("disc", &placed, &flat);
+    // The density over a near disc: even by solid angle, far from it by area.
+    let at = LitPoint {
+        p: flat.lights()[0].bounds(0).unwrap().bounds.center() + Vec3A::Z * 0.05,
+        p_err: Vec3A::ZERO,
+        ng: Vec3A::ZERO,
+        ns: Vec3A::ZERO,
+        sides: Sides::Free,
+        time: 0.0,
+    };
+    let [by_area, by_angle] = [&placed, &flat].map(|scene| {
+        let draws = (0..1024u32).filter_map(|i| {
+            let u = Vec2::new((i % 32) as f32 + 0.5, (i / 32) as f32 + 0.5) / 32.0;
+            scene.sample_light(&at, u).map(|d| d.sample.pdf)
+        });
+        let (least, most) = draws.fold((f32::INFINITY, 0.0f32), |(a, b), p| (a.min(p), b.max(p)));
+        most / least
+    });
+    assert!(by_angle < 2.0 && by_area > 10.0, "{by_angle} {by_area}");
 }
 
 /// Two placements are two lights, and each is found under its own number.

@@ -5,11 +5,11 @@ mod support;
 use std::sync::Arc;
 
 use etendue_core::{Ray, Spectrum, Transform, Vec2, Vec3A, vector};
-use etendue_geometry::{Geometry, Parallelogram, Shape, Sphere, Surface, presets};
+use etendue_geometry::{Disc, Geometry, Parallelogram, Shape, Sphere, Surface, presets};
 use etendue_light::{
-    ConstantEnvironment, DirectionalLight, ImageEnvironment, Light, LightId, LightPicker, LitPoint,
-    MeshLight, ParallelogramLight, PointLight, PowerPicker, ShapeLight, Sides, SinglePicker, SphereLight,
-    SpotLight, UniformPicker,
+    ConstantEnvironment, DirectionalLight, DiscLight, GoniometricLight, ImageEnvironment, IntensityTable,
+    Light, LightId, LightPicker, LitPoint, MeshLight, ParallelogramLight, PointLight, PowerPicker,
+    ShapeLight, Sides, SinglePicker, SphereLight, SpotLight, UniformPicker,
 };
 use etendue_scene::{Emission, Scene, SceneBuilder};
 use etendue_testkit::{check_light, check_picker, lit_point};
@@ -32,6 +32,14 @@ fn points() -> Vec<LitPoint> {
         lit_point(Vec3A::new(0.4, 1.1, -0.3), Vec3A::ZERO),
         lit_point(Vec3A::new(60.0, -160.0, 100.0), tilted),
     ]
+}
+
+/// A lamp that shines down more than up, and more to one side.
+fn lamp() -> GoniometricLight {
+    let values = vec![9.0, 4.0, 0.5, 0.2, 9.0, 7.0, 1.0, 0.2, 9.0, 3.0, 0.1, 0.2];
+    let table = IntensityTable::new(vec![0.0, 40.0, 90.0, 180.0], vec![0.0, 50.0, 180.0], values);
+    let place = Transform::translation(Vec3A::new(0.1, 0.5, 0.0));
+    GoniometricLight::new(&place, Arc::new(table.expect("a table")), Spectrum::rgb(1.0, 2.0, 3.0))
 }
 
 fn of_shape<L: Light + 'static>(name: &str, light: L, shape: impl Shape + 'static) -> Case<'static> {
@@ -84,6 +92,7 @@ fn lights() -> Vec<Case<'static>> {
         .expect("an area");
     let ball = Sphere::new(Vec3A::new(0.1, 0.2, -0.1), 0.5).expect("a ball");
     let around = Sphere::new(Vec3A::new(0.1, 0.2, -0.1), 300.0).expect("a ball");
+    let disc = Disc::new(Vec3A::new(0.1, 0.2, -0.1), Vec3A::new(0.3, -1.0, 0.2), 0.5).expect("a disc");
     let white = Tex::gray(3.0);
     let two = |mut l: ParallelogramLight| {
         l.two_sided = true;
@@ -122,6 +131,9 @@ fn lights() -> Vec<Case<'static>> {
             SphereLight { two_sided: true, ..SphereLight::new(around, white.clone()) },
             around,
         ),
+        of_shape("disc", DiscLight::new(disc, white.clone()), disc),
+        of_shape("textured disc", DiscLight { two_sided: true, ..DiscLight::new(disc, texture()) }, disc),
+        without_surface("measured lamp", lamp()),
         of_shape("shape", ShapeLight::new(Arc::new(skew), None, white.clone(), true), skew),
         of_shape("round shape", ShapeLight::new(Arc::new(ball), None, texture(), false), ball),
     ];
