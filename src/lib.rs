@@ -38,7 +38,8 @@ pub mod prelude {
         render, replay,
     };
     pub use etendue_light::{
-        ConstantEnvironment, DirectionalLight, ImageEnvironment, Light, LightPicker, PointLight, SpotLight,
+        ConstantEnvironment, DirectionalLight, GoniometricLight, ImageEnvironment, Light, LightPicker,
+        PointLight, SpotLight,
     };
     pub use etendue_material::{Diffuse, Glass, Material, Metal, NormalMapped, Principled};
     pub use etendue_sampling::{Dim, Independent, Sampler, Slot, Sobol, Stratified};
