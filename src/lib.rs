@@ -24,10 +24,11 @@ pub use etendue_texture as texture;
 pub mod prelude {
     pub use etendue_bsdf::{Bsdf, BsdfAt, BsdfSample, Lobes, Mode};
     pub use etendue_camera::{
-        Camera, CameraSample, Film, Filter, Orthographic, Panorama, Perspective, Planes,
+        Camera, CameraSample, Film, Filter, Orthographic, Panorama, Perspective, Planes, Shutter,
     };
     pub use etendue_core::{
-        CancelFlag, Frame, Needs, Origin, Progress, Ray, Spectrum, Transform, UVec2, Vec2, Vec3, Vec3A, Vec4,
+        CancelFlag, Frame, Motion, Needs, Origin, Progress, Ray, Spectrum, Transform, UVec2, Vec2, Vec3,
+        Vec3A, Vec4,
     };
     pub use etendue_geometry::{
         Cylinder, Disc, Geometry, Hit, Parallelogram, Plane, Shape, ShapeHit, ShapeSample, Sphere, Surface,
