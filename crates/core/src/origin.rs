@@ -76,7 +76,7 @@ impl Segment {
     ///
     /// Both ends are moved out of their error boxes toward each other, the far one by as much more as computing the
     /// direction and the distance may lose, so that neither surface can shadow itself.
-    #[inline]
+    #[inline(always)]
     pub fn ray(&self) -> Option<Ray> {
         let Some(to) = &self.to else {
             return Some(self.from.ray(self.d, self.time));

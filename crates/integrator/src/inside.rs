@@ -1,7 +1,6 @@
 use etendue_core::{Needs, Spectrum, Vec3A, math, vector};
+use etendue_geometry::Surface;
 use etendue_scene::Body;
-
-use crate::shaded::Shaded;
 
 /// Bodies that a path can be in at once; more are not kept apart.
 const DEEPEST: usize = 8;
@@ -51,17 +50,18 @@ impl Inside {
         }
     }
 
-    /// What is left of light that comes to a surface, which bounds `body`, from `end` along `wi`; `None` is infinitely far.
+    /// What is left of light that comes to a surface, which bounds `body` and is seen along `wo`, from `end` along `wi`;
+    /// `None` is infinitely far.
     pub(crate) fn on_the_way(
         &self,
-        here: &Shaded<'_>,
+        surface: &Surface,
         body: Option<Body>,
+        wo: Vec3A,
         wi: Vec3A,
         end: Option<Vec3A>,
     ) -> Spectrum {
-        let ng = here.surface.ng;
-        let there = body.map_or(*self, |b| self.beyond(b, here.wo.dot(ng), wi.dot(ng)));
-        there.transmittance(end.map_or(f32::INFINITY, |p| vector::length(p - here.surface.p)))
+        let there = body.map_or(*self, |b| self.beyond(b, wo.dot(surface.ng), wi.dot(surface.ng)));
+        there.transmittance(end.map_or(f32::INFINITY, |p| vector::length(p - surface.p)))
     }
 
     /// On the other side of a surface of `material`, which bounds a body that absorbs `sigma`; `inward` is to its back.

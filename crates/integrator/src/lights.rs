@@ -100,7 +100,7 @@ impl<S: Sampler> Receiver<'_, S> {
         let mut value = self.beta * f * l.li * (1.0 / l.pdf);
         if let Some(inside) = self.inside {
             let body = cx.scene.body(here.surface);
-            value *= inside.on_the_way(here, body, l.wi, l.end.map(|e| e.p));
+            value *= inside.on_the_way(here.surface, body, here.wo, l.wi, l.end.map(|e| e.p));
         }
         if value.is_black() {
             return;

@@ -201,16 +201,20 @@ impl Scene {
     #[inline]
     pub fn sample_light(&self, at: &LitPoint, u: Vec2) -> Option<LightDraw> {
         let pick = self.parts.picker.as_ref()?.pick(at, u.x)?;
-        let mut draw = self.sample_part(at, pick.id, Vec2::new(pick.u, u.y))?;
-        draw.sample.pdf *= pick.pmf;
-        (draw.sample.pdf > 0.0).then_some(draw)
+        let light = self.parts.emitters.lights.get(pick.id.light as usize)?;
+        let mut sample = light.sample(at, pick.id.part, Vec2::new(pick.u, u.y))?;
+        sample.pdf *= pick.pmf;
+        self.drawn(pick.id, sample)
     }
 
     /// Draws a direction toward one part of one light, with the light's own density.
-    #[inline]
     pub fn sample_part(&self, at: &LitPoint, id: LightId, u: Vec2) -> Option<LightDraw> {
         let light = self.parts.emitters.lights.get(id.light as usize)?;
-        let sample = light.sample(at, id.part, u)?;
+        self.drawn(id, light.sample(at, id.part, u)?)
+    }
+
+    #[inline(always)]
+    fn drawn(&self, id: LightId, sample: LightSample) -> Option<LightDraw> {
         let only_way = sample.is_delta || !self.parts.emitters.found_by_rays[id.light as usize];
         (sample.pdf > 0.0 && !sample.li.is_black()).then_some(LightDraw { id, sample, only_way })
     }

@@ -130,8 +130,11 @@ impl Tree {
     /// ended it.
     #[inline]
     pub(crate) fn visit(&self, ray: &BoxRay, visitor: &mut impl Visitor) -> bool {
-        // A small stack is cheaper to clear; almost every tree fits.
-        if self.waiting <= 56 {
+        // A small stack is cheaper to clear: in a scene of a dozen shapes it is 2 % of all instructions. Almost every tree
+        // fits the second.
+        if self.waiting <= 16 {
+            self.visit_with::<16>(ray, visitor)
+        } else if self.waiting <= 56 {
             self.visit_with::<56>(ray, visitor)
         } else {
             self.visit_with::<{ Self::MOST_WAITING }>(ray, visitor)

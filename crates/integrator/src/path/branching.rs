@@ -1,8 +1,4 @@
-use etendue_sampling::Sampler;
-
-use super::PathTracer;
-use super::leg::{Carried, Leg, Parts};
-use crate::{Context, Recorder, Sample};
+use super::leg::Carried;
 
 /// Most paths that one camera ray is split into.
 const MOST: u32 = 1 << 16;
@@ -24,8 +20,12 @@ impl Branching {
     /// One way on.
     pub const NONE: Self = Self { factor: 1, levels: 0 };
 
-    /// Ways on after `depth` scattering events.
-    fn ways(self, depth: u32) -> u32 {
+    /// Ways on after `depth` scattering events, at least one.
+    #[inline(always)]
+    pub(super) fn ways(self, depth: u32) -> u32 {
+        if self.factor <= 1 {
+            return 1;
+        }
         let all = self.factor.checked_pow(depth.saturating_add(1)).filter(|&n| n <= MOST);
         if depth < self.levels && all.is_some() { self.factor } else { 1 }
     }
@@ -37,43 +37,9 @@ impl Default for Branching {
     }
 }
 
-impl PathTracer {
-    /// All branches from one camera ray, one after the other; those not yet followed wait in a list no longer than
-    /// `factor · levels`.
-    pub(super) fn tree<S: Sampler, R: Recorder + ?Sized>(
-        &self,
-        cx: &Context<'_>,
-        first: Leg<S>,
-        spread: f32,
-        out: &mut Sample,
-        rec: &mut R,
-    ) {
-        let mut waiting = vec![first];
-        while let Some(mut leg) = waiting.pop() {
-            while self.arrive(cx, leg.parts(), spread, out, rec, |here, leg, out, rec| {
-                let Parts { ray, from, carried, u } = leg;
-                let ways = self.branching.ways(carried.depth);
-                *carried = carried.shared(ways);
-                for way in 1..ways {
-                    let mut branch = Leg {
-                        ray: *ray,
-                        from: *from,
-                        carried: *carried,
-                        u: u.fork(carried.depth << 16 ^ way),
-                    };
-                    if self.scatter(cx, here, branch.parts(), out, rec) {
-                        waiting.push(branch);
-                    }
-                }
-                self.scatter(cx, here, Parts { ray, from, carried, u }, out, rec)
-            }) {}
-        }
-    }
-}
-
 impl Carried {
     /// By one of `ways` equal branches. Roulette and cut-offs look at what the branch carries since it branched.
-    fn shared(&self, ways: u32) -> Self {
+    pub(super) fn shared(&self, ways: u32) -> Self {
         let n = ways as f32;
         Self { beta: self.beta / n, eta_scale: self.eta_scale * n, ..*self }
     }

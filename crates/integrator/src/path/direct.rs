@@ -55,6 +55,7 @@ impl PathTracer {
     }
 
     /// Draws a light for a vertex, if this way of finding light uses it.
+    #[inline(always)]
     pub(super) fn draw_light<S: Sampler>(
         &self,
         cx: &Context<'_>,
@@ -80,6 +81,7 @@ impl PathTracer {
 
     /// Adds a light sample if nothing is in between.
     #[allow(clippy::too_many_arguments)]
+    #[inline(always)]
     pub(super) fn add_light<S: Sampler, R: Recorder + ?Sized>(
         &self,
         cx: &Context<'_>,

@@ -1,6 +1,6 @@
-use etendue_camera::CameraSample;
 use etendue_core::{Needs, Ray, Spectrum, Vec3A};
 use etendue_light::{LitPoint, Sides};
+use etendue_sampling::Sampler;
 
 use crate::inside::Inside;
 
@@ -42,36 +42,44 @@ pub(super) struct Parts<'p, S> {
     pub(super) ray: &'p mut Ray,
     pub(super) from: &'p mut Scattered,
     pub(super) carried: &'p mut Carried,
-    pub(super) u: &'p S,
+    pub(super) u: &'p mut S,
 }
 
-impl<S> Leg<S> {
-    /// From the camera.
+impl Scattered {
+    /// The camera, from which a ray comes.
     #[inline(always)]
-    pub(super) fn first(s: &CameraSample, u: S, needs: Needs) -> Self {
-        let nowhere = LitPoint {
-            p: s.ray.o,
+    pub(super) fn nowhere(ray: &Ray) -> Self {
+        let at = LitPoint {
+            p: ray.o,
             p_err: Vec3A::ZERO,
             ng: Vec3A::ZERO,
             ns: Vec3A::ZERO,
             sides: Sides::Free,
-            time: s.ray.time,
+            time: ray.time,
         };
-        Self {
-            ray: s.ray,
-            from: Scattered { at: nowhere, pdf: 0.0, only_way: true },
-            carried: Carried {
-                beta: Spectrum::ONE,
-                eta_scale: 1.0,
-                length: 0.0,
-                depth: 0,
-                inside: Inside::of(needs),
-            },
-            u,
-        }
+        Self { at, pdf: 0.0, only_way: true }
     }
+}
 
+impl Carried {
+    /// Away from the camera.
+    #[inline(always)]
+    pub(super) fn first(needs: Needs) -> Self {
+        Self { beta: Spectrum::ONE, eta_scale: 1.0, length: 0.0, depth: 0, inside: Inside::of(needs) }
+    }
+}
+
+impl<S> Leg<S> {
+    #[inline(always)]
     pub(super) fn parts(&mut self) -> Parts<'_, S> {
-        Parts { ray: &mut self.ray, from: &mut self.from, carried: &mut self.carried, u: &self.u }
+        Parts { ray: &mut self.ray, from: &mut self.from, carried: &mut self.carried, u: &mut self.u }
+    }
+}
+
+impl<S: Sampler> Parts<'_, S> {
+    /// A copy with random numbers of its own.
+    pub(super) fn branch(&self, way: u32) -> Leg<S> {
+        let u = self.u.fork(self.carried.depth << 16 ^ way);
+        Leg { ray: *self.ray, from: *self.from, carried: *self.carried, u }
     }
 }
