@@ -204,6 +204,69 @@ fn whitted_has_all_the_light_of_mirrors_and_all_direct_light() {
     assert_agreement(&scene, &camera, &ways, 20, 0.03);
 }
 
+/// A picker may leave a sky to rays: whoever does not look for it by rays draws it all the same.
+#[test]
+fn a_sky_that_nobody_picks_is_there() {
+    let mut b = SceneBuilder::new();
+    let camera = room(&mut b);
+    b.light(ConstantEnvironment::new(Spectrum::gray(2.0)));
+    b.picker_with(|_, _| None);
+    let scene = b.build().unwrap();
+    let path = PathTracer { max_depth: Some(2), ..PathTracer::default() };
+    let mut area = AreaForm::new(&scene).unwrap();
+    area.max_depth = Some(2);
+    assert_agreement(&scene, &camera, &[("path", &path, 128), ("area", &area, 512)], 20, 0.03);
+}
+
+/// A mirror of a user's whose weight may be no number.
+struct Broken(f32);
+
+impl Bsdf for Broken {
+    fn lobes(&self) -> Lobes {
+        Lobes::REFLECTION | Lobes::DELTA
+    }
+    fn eval(&self, _: Vec3A, _: Vec3A, _: Mode) -> Spectrum {
+        Spectrum::BLACK
+    }
+    fn pdf(&self, _: Vec3A, _: Vec3A, _: Mode) -> f32 {
+        0.0
+    }
+    fn sample(&self, wo: Vec3A, _: f32, _: Vec2, _: Mode) -> Option<BsdfSample> {
+        let wi = Vec3A::new(-wo.x, -wo.y, wo.z);
+        Some(BsdfSample { wi, weight: Spectrum::gray(self.0), pdf: 1.0, lobe: self.lobes(), eta: 1.0 })
+    }
+    fn at(&self) -> BsdfAt<'_> {
+        BsdfAt::Ref(self)
+    }
+}
+
+impl Material for Broken {
+    fn bsdf<'a>(&'a self, _: &Surface) -> BsdfAt<'a> {
+        BsdfAt::Ref(self)
+    }
+    fn needs(&self) -> Needs {
+        Needs::DELTA
+    }
+}
+
+/// A weight that is no number reaches the film, which refuses it and says where; it does not turn black in silence.
+#[test]
+fn what_is_no_number_is_reported() {
+    let mut b = SceneBuilder::new();
+    let broken = b.material(Broken(f32::NAN));
+    b.add(Sphere::new(Vec3A::ZERO, 1.0).unwrap(), broken);
+    b.light(PointLight::new(Vec3A::new(0.0, 5.0, 0.0), Spectrum::ONE));
+    let scene = b.build().unwrap();
+    let camera = Perspective::look_at(Vec3A::Z * 4.0, Vec3A::ZERO, Vec3A::Y, 20.0, UVec2::splat(4)).unwrap();
+    let area = AreaForm::new(&scene).unwrap();
+    let ways: [&dyn Integrator<Sobol>; 3] = [&PathTracer::default(), &Whitted::default(), &area];
+    for way in ways {
+        let mut film = Film::new(UVec2::splat(4), 1).unwrap();
+        let r = render(&scene, &camera, way, Sobol::new(1, 4), &mut film, &RenderOptions::default()).unwrap();
+        assert_eq!(r.rejected, 64);
+    }
+}
+
 #[test]
 fn what_has_no_area_is_refused_by_name() {
     let mut b = SceneBuilder::new();

@@ -33,7 +33,7 @@ const LAST: f32 = 1.0 - f32::EPSILON * 0.5;
 ///
 /// All instants between `open` and `close` count alike. The camera of time 0 is displaced by the motion at the time of
 /// the ray, which is the scene's time: a camera that moves with an object sees it stand still. Closing when it opens
-/// freezes that moment, and no number is drawn for it.
+/// freezes that moment, and of itself it asks for no number.
 ///
 /// A shutter around a shutter opens within the inner one's interval.
 #[derive(Clone, Debug, PartialEq)]

@@ -78,6 +78,20 @@ impl<S: Sampler> Receiver<'_, S> {
         }
     }
 
+    /// Adds that of every light at infinity that rays can find, and of one other that they cannot.
+    pub(crate) fn no_surface<R: Recorder + ?Sized>(&self, cx: &Context<'_>, out: &mut Sample, rec: &mut R) {
+        let at = self.here.lit(self.here.lobes());
+        for (nth, (id, _)) in (1..).zip(cx.scene.infinite_lights()) {
+            let draw = cx.scene.sample_part(&at, id, self.draw(cx, &self.u.fork(nth)));
+            if let Some(d) = draw.filter(|d| !d.only_way) {
+                self.add(cx, &at, &d, out, rec);
+            }
+        }
+        if cx.scene.has_hidden_lights() {
+            self.one(cx, &at, |d| d.only_way, out, rec);
+        }
+    }
+
     fn draw(&self, cx: &Context<'_>, u: &S) -> Vec2 {
         cx.count(|c| c.draws_light += 2);
         u.get_2d(Dim::bounce(self.depth, Slot::Light))
@@ -109,6 +123,9 @@ impl<S: Sampler> Receiver<'_, S> {
             let segment = Segment { from: at.origin(), d: l.wi, to: l.end, time: at.time };
             cx.count(|c| c.shadow_rays += 1);
             value *= cx.scene.transmittance(&segment, cutout_bits(cx, needs, &self.u, self.depth, true));
+            if value.is_black() {
+                return;
+            }
         }
         out.l += value;
         rec.contribution(&Contribution {

@@ -11,7 +11,8 @@ use crate::{Context, Integrator, Recorder, Sample};
 /// Ray casting (Appel 1968): the first surface that a ray meets, with what it emits and what it reflects of light that comes
 /// straight from its source. What a rasteriser shows, for any shape and BSDF.
 ///
-/// Biased: all other light is left out, and so are lights that only rays find (mirrored ones, emitters with holes).
+/// Biased: all other light is left out, and so are lights that only rays find (mirrored ones, emitters
+/// with holes, lights that the scene's picker never picks where it is asked).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayCaster {
     /// Whether other surfaces cast shadows, as in Appel's pictures; else every light reaches every surface that faces it.
@@ -65,7 +66,9 @@ impl<S: Sampler> Integrator<S> for RayCaster {
 
     fn bias(&self) -> Vec<String> {
         let what = if self.shadows { "" } else { ", and no shadows" };
-        vec![format!("raycast: only light that is reflected once, straight from its source{what}")]
+        vec![format!(
+            "raycast: only light that is reflected once, straight from a source that can be drawn{what}"
+        )]
     }
 
     fn fingerprint(&self, f: &mut Fingerprint) {

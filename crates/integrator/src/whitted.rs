@@ -6,21 +6,22 @@ use etendue_sampling::{Dim, Sampler, Slot};
 use crate::arrival::{Cone, add_emission, follow};
 use crate::inside::Inside;
 use crate::lights::Receiver;
-use crate::path::Roulette;
+use crate::path::survival_in_tree;
 use crate::shaded::{Shaded, bsdf_at};
 use crate::{Context, Integrator, Recorder, Sample};
-
-/// Rays that carry less are left to chance, so that a tree of reflections and refractions stays as wide as 1/FAINT.
-const FAINT: f32 = 1.0 / 64.0;
 
 /// Whitted's ray tracing (1980): at every surface a ray to each light, and *both* the reflected and the refracted ray where the
 /// surface has them. Nothing is drawn but points on lights that have an extent, and faint rays, which roulette ends.
 ///
-/// Biased: light that matte and glossy surfaces send to each other is left out; what it holds is L(D|G)?S*E. In a scene of
-/// mirrors and clear glass nothing is missing.
+/// Biased: light that matte and glossy surfaces send to each other is left out; what it holds is L(D|G)?S*E. Left out is also
+/// what such surfaces reflect of lights that only rays find (emitters with holes, lights that the scene's picker never picks
+/// where it is asked). In a scene of mirrors and clear glass nothing is missing.
+///
+/// Roulette ends faint rays, and deep in the tree all but one of them on average; between perfect mirrors a ray may still take
+/// long, as a path does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Whitted {
-    /// Most reflections and refractions in a row. `None` is unlimited. Bias.
+    /// Most scattering events: 0 shows emitters only, 1 adds direct light and mirrored emitters. `None` is unlimited. Bias.
     pub max_depth: Option<u32>,
     /// Rays whose largest channel carries less are dropped; 0 drops none. Bias.
     pub threshold: f32,
@@ -33,6 +34,9 @@ impl Default for Whitted {
         Self { max_depth: None, threshold: 0.0, each_light: 16 }
     }
 }
+
+/// Marks the random numbers of a second ray, which no light's are ([`Receiver`] counts those from 1).
+const SECOND: u32 = 1 << 31;
 
 /// A ray of the tree that has not been followed yet.
 #[derive(Clone, Copy)]
@@ -86,8 +90,8 @@ impl Whitted {
             );
             let lobes = here.bsdf.delta_lobes(here.frame.to_local(wo), Mode::Radiance);
             for (nth, sample) in lobes.into_iter().flatten().enumerate() {
-                let u = if nth == 0 { w.u } else { w.u.fork(w.depth) };
-                waiting.extend(self.onward(cx, &here, &Waiting { u, ..w }, &sample));
+                let u = if nth == 0 { w.u } else { w.u.fork(SECOND | w.depth) };
+                waiting.extend(self.onward(cx, &here, &Waiting { u, ..w }, &sample, &mut out));
             }
         }
         out
@@ -100,10 +104,16 @@ impl Whitted {
         here: &Shaded<'_>,
         w: &Waiting<S>,
         sample: &BsdfSample,
+        out: &mut Sample,
     ) -> Option<Waiting<S>> {
         let wi = here.frame.to_world(sample.wi);
         let mut beta = w.beta * sample.weight;
-        if beta.is_black() || !beta.is_finite() || !here.agrees(wi) {
+        if beta.is_black() || !here.agrees(wi) {
+            return None;
+        }
+        // No number any more: handed on as it is, so that the film refuses the sample and says where.
+        if !beta.is_finite() {
+            out.l += beta;
             return None;
         }
         let (mut inside, mut eta_scale) = (w.inside, w.eta_scale);
@@ -117,8 +127,7 @@ impl Whitted {
         if carried < self.threshold {
             return None;
         }
-        let survival =
-            Roulette::Throughput { from: 0 }.survival(w.depth + 1, carried / FAINT, || Spectrum::ONE);
+        let survival = survival_in_tree(w.depth + 1, carried);
         if survival < 1.0 {
             cx.count(|c| c.draws_roulette += 1);
             if w.u.get_1d(Dim::bounce(w.depth, Slot::Roulette)) >= survival {
@@ -143,7 +152,7 @@ impl<S: Sampler> Integrator<S> for Whitted {
     }
 
     fn bias(&self) -> Vec<String> {
-        let mut out = vec!["whitted: light between surfaces that are no mirrors is left out".to_owned()];
+        let mut out = vec!["whitted: light between surfaces that are no mirrors is left out, and that of lights found by rays alone".to_owned()];
         out.extend(self.max_depth.map(|m| format!("max_depth={m}: longer paths are cut off")));
         if self.threshold > 0.0 {
             out.push(format!("threshold={}: rays that carry less are cut off", self.threshold));

@@ -159,7 +159,10 @@ impl Scene {
             return 1.0;
         }
         let Surface { uv, p, color, ref fetches, .. } = *surface;
-        self.material(surface).map_or(1.0, |m| m.opacity(&AlphaPoint { uv, p, color, fetches }))
+        let opacity =
+            self.material(surface).map_or(1.0, |m| m.opacity(&AlphaPoint { uv, p, color, fetches }));
+        // As a ray decides, which compares it with a number in [0, 1).
+        if opacity > 0.0 { opacity.clamp(0.0, 1.0) } else { 0.0 }
     }
 
     /// The body behind a surface; `None` where transmitted light enters none (see [`Material::absorption`]).

@@ -3,12 +3,14 @@
 mod common;
 
 use common::{gray, radiance, square};
+use etendue_bsdf::{Black, BsdfAt};
 use etendue_camera::{Camera, Film, Perspective};
 use etendue_core::{Needs, Origin, Ray, Segment, Spectrum, Transform, UVec2, Vec3A, Vec4};
+use etendue_geometry::Surface;
 use etendue_geometry::{Parallelogram, Sphere, presets};
 use etendue_integrator::{DirectLight, PathTracer, RenderOptions, render};
 use etendue_light::{ConstantEnvironment, PointLight};
-use etendue_material::{Cutout, Diffuse};
+use etendue_material::{AlphaPoint, Cutout, Diffuse, Material};
 use etendue_sampling::{Dim, Independent, Sampler, Slot, Sobol};
 use etendue_scene::{Scene, SceneBuilder};
 use etendue_testkit::stats::{binomial_test, chi2_test, mean_test};
@@ -235,4 +237,39 @@ fn a_picture_with_holes_is_a_function_of_its_inputs() {
     let options = RenderOptions::default();
     render(&again, &camera, &PathTracer::default(), Sobol::new(3, 8), &mut other, &options).unwrap();
     assert!(other == first);
+}
+
+/// A user's material with an opacity of its own.
+struct Odd(f32);
+
+impl Material for Odd {
+    fn bsdf<'a>(&'a self, _: &Surface) -> BsdfAt<'a> {
+        BsdfAt::Black(Black)
+    }
+    fn opacity(&self, _: &AlphaPoint<'_>) -> f32 {
+        self.0
+    }
+    fn needs(&self) -> Needs {
+        Needs::CUTOUTS
+    }
+}
+
+/// What is said of a surface is what rays do there, whatever its material says.
+#[test]
+fn opacities_are_shares() {
+    for (says, is) in [(0.25, 0.25), (1.5, 1.0), (-0.5, 0.0), (f32::NAN, 0.0), (f32::INFINITY, 1.0)] {
+        let mut b = SceneBuilder::new();
+        let m = b.material(Odd(says));
+        b.add(square(0.0), m);
+        let scene = b.build().unwrap();
+        let stopped = bits().take(4000).filter(|&bits| scene.intersect(&toward(), bits).is_some()).count();
+        let share = stopped as f32 / 4000.0;
+        assert!((share - is).abs() < 0.05, "{says}: {share}");
+        let mut whole = SceneBuilder::new();
+        let m = whole.material(Odd(1.0));
+        whole.add(square(0.0), m);
+        let hit = whole.build().unwrap().intersect(&toward(), 0).unwrap();
+        let surface = scene.surface(&toward(), &hit, 0.0);
+        assert_eq!(scene.opacity(&surface), is, "{says}");
+    }
 }

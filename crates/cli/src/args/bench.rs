@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::integrator::{IntegratorChoice, WORDS};
+use super::integrator_words::{IntegratorChoice, WORDS};
 use super::method::{MethodArgs, SamplerName};
 use super::values;
 use super::view::ViewArgs;

@@ -1,24 +1,21 @@
-use std::str::FromStr;
-
 use etendue::integrator::{
-    AmbientOcclusion, AreaForm, DirectLight, FirstSurface, Integrator, PathTracer, RayCaster, Roulette, Show,
-    Whitted,
+    AmbientOcclusion, AreaForm, FirstSurface, Integrator, PathTracer, RayCaster, Roulette, Whitted,
 };
-use etendue::sampling::Sampler;
+use etendue::sampling::{Sampler, Sobol};
 use etendue::scene::Scene;
 
 use crate::error::CliError;
-
-/// What `--integrator` takes, for its help.
-pub(crate) const WORDS: &str = "path, direct, split, hemisphere or area, each with options such as :depth=N, \
-:light=none|lights|bsdf|balance|power, :roulette=off|throughput|albedo|0.7, :from=N, :threshold=X, :branch=N, :levels=N; \
-whitted, raycast, ao:reach=X; normal, depth, ids, triangles, albedo, uv";
 
 /// An integrator that needs no scene to be known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Method {
     Path(PathTracer),
-    Area { max_depth: Option<u32>, roulette: Roulette },
+    /// Stops after one scattering event because that is what it is.
+    Direct(PathTracer),
+    Area {
+        max_depth: Option<u32>,
+        roulette: Roulette,
+    },
     Whitted(Whitted),
     RayCast(RayCaster),
     Occlusion(AmbientOcclusion),
@@ -31,6 +28,7 @@ impl Method {
         let lower = |own: Option<u32>| [own, flag].into_iter().flatten().min();
         match self {
             Self::Path(t) => Self::Path(PathTracer { max_depth: lower(t.max_depth), ..t }),
+            Self::Direct(t) => Self::Direct(PathTracer { max_depth: lower(t.max_depth), ..t }),
             Self::Area { max_depth, roulette } => Self::Area { max_depth: lower(max_depth), roulette },
             Self::Whitted(w) => Self::Whitted(Whitted { max_depth: lower(w.max_depth), ..w }),
             other => other,
@@ -40,6 +38,7 @@ impl Method {
     pub(crate) fn max_depth(self) -> Option<u32> {
         match self {
             Self::Path(PathTracer { max_depth, .. })
+            | Self::Direct(PathTracer { max_depth, .. })
             | Self::Area { max_depth, .. }
             | Self::Whitted(Whitted { max_depth, .. }) => max_depth,
             _ => None,
@@ -50,6 +49,7 @@ impl Method {
     pub(crate) fn on(self, scene: &Scene) -> Result<Ready, CliError> {
         Ok(match self {
             Self::Path(t) => Ready::Path(t),
+            Self::Direct(t) => Ready::Direct(t),
             Self::Area { max_depth, roulette } => {
                 let mut form = AreaForm::new(scene).map_err(|e| CliError::Usage(format!("'area': {e}")))?;
                 (form.max_depth, form.roulette) = (max_depth, roulette);
@@ -66,6 +66,7 @@ impl Method {
 /// An integrator for one scene.
 pub(crate) enum Ready {
     Path(PathTracer),
+    Direct(PathTracer),
     Area(Box<AreaForm>),
     Whitted(Whitted),
     RayCast(RayCaster),
@@ -76,7 +77,7 @@ pub(crate) enum Ready {
 impl Ready {
     pub(crate) fn integrator<S: Sampler>(&self) -> &dyn Integrator<S> {
         match self {
-            Self::Path(i) => i,
+            Self::Path(i) | Self::Direct(i) => i,
             Self::Area(i) => &**i,
             Self::Whitted(i) => i,
             Self::RayCast(i) => i,
@@ -86,225 +87,13 @@ impl Ready {
     }
 }
 
-/// How light is followed: a name, and what differs from its defaults.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct IntegratorChoice {
-    /// As it was written.
-    pub(crate) word: String,
-    /// Stops after one scattering event because that is what it is.
-    pub(crate) direct_only: bool,
-    pub(crate) method: Method,
-}
-
-impl FromStr for IntegratorChoice {
-    type Err = String;
-
-    fn from_str(word: &str) -> Result<Self, String> {
-        let mut parts = word.split(':');
-        let name = parts.next().unwrap_or_default();
-        let mut method = named(name).ok_or_else(|| format!("write {WORDS}"))?;
-        let options: Vec<&str> = parts.collect();
-        for &option in &options {
-            let (key, value) = option.split_once('=').unwrap_or((option, ""));
-            let fixed = (name == "direct" && key == "depth")
-                || (matches!(name, "split" | "hemisphere") && key == "light");
-            if fixed || !set(&mut method, key, value)? {
-                return Err(format!("'{option}': '{name}' has no such option; write {WORDS}"));
-            }
+impl Ready {
+    /// What is biased; not that `direct` stops after one scattering event.
+    pub(crate) fn bias(&self) -> Vec<String> {
+        let mut named = self.integrator::<Sobol>().bias();
+        if let Self::Direct(PathTracer { max_depth: Some(1), .. }) = self {
+            named.retain(|b| !b.starts_with("max_depth="));
         }
-        // In any order: from when on is known only after which roulette.
-        for &option in &options {
-            if let Some(n) = option.strip_prefix("from=") {
-                set_from(&mut method, whole(option, n)?);
-            }
-        }
-        Ok(Self { word: word.to_owned(), direct_only: name == "direct", method })
-    }
-}
-
-fn named(name: &str) -> Option<Method> {
-    let first = |show| Method::First(FirstSurface { show });
-    Some(match name {
-        "path" => Method::Path(PathTracer::default()),
-        "direct" => Method::Path(PathTracer::direct_only()),
-        "split" => Method::Path(PathTracer::split_form()),
-        "hemisphere" => Method::Path(PathTracer::hemisphere_form()),
-        "area" => Method::Area { max_depth: None, roulette: PathTracer::default().roulette },
-        "whitted" => Method::Whitted(Whitted::default()),
-        "raycast" => Method::RayCast(RayCaster::default()),
-        "ao" => Method::Occlusion(AmbientOcclusion::default()),
-        "normal" => first(Show::Normal),
-        "depth" => first(Show::Depth),
-        "ids" => first(Show::Ids),
-        "triangles" => first(Show::Triangles),
-        "albedo" => first(Show::Albedo),
-        "uv" => first(Show::Uv),
-        _ => return None,
-    })
-}
-
-/// Sets one option; false where the method has none of that name.
-fn set(method: &mut Method, key: &str, value: &str) -> Result<bool, String> {
-    let option = format!("{key}={value}");
-    let number = || whole(&option, value);
-    let positive = || match value.parse::<f32>() {
-        Ok(x) if x >= 0.0 && x.is_finite() => Ok(x),
-        _ => Err(format!("'{option}': write a number that is 0 or more")),
-    };
-    match (method, key) {
-        (Method::Path(t), "depth") => t.max_depth = Some(number()?),
-        (Method::Path(t), "light") => t.direct = direct_light(value)?,
-        (Method::Path(t), "threshold") => t.threshold = positive()?,
-        (Method::Path(t), "branch") => {
-            t.branching.factor = number()?;
-            t.branching.levels = t.branching.levels.max(1);
-        }
-        (Method::Path(t), "levels") => t.branching.levels = number()?,
-        (Method::Path(PathTracer { roulette: r, .. }) | Method::Area { roulette: r, .. }, "roulette") => {
-            *r = roulette(&option, value)?;
-        }
-        (Method::Path(_) | Method::Area { .. }, "from") => {}
-        (Method::Area { max_depth, .. }, "depth") => *max_depth = Some(number()?),
-        (Method::Whitted(w), "depth") => w.max_depth = Some(number()?),
-        (Method::Whitted(w), "threshold") => w.threshold = positive()?,
-        (
-            Method::Whitted(Whitted { each_light, .. }) | Method::RayCast(RayCaster { each_light, .. }),
-            "each",
-        ) => {
-            *each_light = number()?;
-        }
-        (Method::RayCast(r), "shadows") => {
-            r.shadows = match value {
-                "on" => true,
-                "off" => false,
-                _ => return Err(format!("'{option}': write on or off")),
-            }
-        }
-        (Method::Occlusion(a), "reach") => a.reach = positive()?,
-        _ => return Ok(false),
-    }
-    Ok(true)
-}
-
-fn whole(option: &str, n: &str) -> Result<u32, String> {
-    n.parse().map_err(|_| format!("'{option}': write a whole number"))
-}
-
-/// A number below 1 is a probability; a whole one is from when on the throughput decides.
-fn roulette(option: &str, value: &str) -> Result<Roulette, String> {
-    let from = 1;
-    Ok(match value {
-        "off" => Roulette::Off,
-        "throughput" => Roulette::Throughput { from: 3 },
-        "albedo" => Roulette::Albedo { from },
-        _ => match (value.parse::<u32>(), value.parse::<f32>()) {
-            (Ok(from), _) => Roulette::Throughput { from },
-            (_, Ok(p)) if p > 0.0 && p < 1.0 => Roulette::Fixed { p, from },
-            _ => {
-                return Err(format!(
-                    "'{option}': write off, throughput, albedo, a probability between 0 and 1, or a whole number"
-                ));
-            }
-        },
-    })
-}
-
-fn set_from(method: &mut Method, n: u32) {
-    if let Method::Path(PathTracer { roulette: r, .. }) | Method::Area { roulette: r, .. } = method {
-        match r {
-            Roulette::Fixed { from, .. } | Roulette::Albedo { from } | Roulette::Throughput { from } => {
-                *from = n
-            }
-            Roulette::Off => {}
-        }
-    }
-}
-
-fn direct_light(word: &str) -> Result<DirectLight, String> {
-    match word {
-        "none" => Ok(DirectLight::None),
-        "lights" => Ok(DirectLight::Light),
-        "bsdf" => Ok(DirectLight::Bsdf),
-        "balance" => Ok(DirectLight::MisBalance),
-        "power" => Ok(DirectLight::MisPower),
-        _ => {
-            Err(format!("'light={word}': write none (by chance), lights, bsdf, or both as balance or power"))
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use etendue::integrator::Branching;
-
-    use super::*;
-
-    fn method(word: &str, limit: Option<u32>) -> Option<Method> {
-        word.parse::<IntegratorChoice>().ok().map(|c| c.method.limited(limit))
-    }
-
-    fn tracer(word: &str, limit: Option<u32>) -> Option<PathTracer> {
-        method(word, limit).and_then(|m| if let Method::Path(t) = m { Some(t) } else { None })
-    }
-
-    #[test]
-    fn ways_of_tracing_paths() {
-        let path = PathTracer::default();
-        assert_eq!(tracer("path", None), Some(path));
-        assert_eq!(tracer("direct", Some(7)).and_then(|t| t.max_depth), Some(1));
-        assert_eq!(tracer("direct", Some(0)).and_then(|t| t.max_depth), Some(0));
-        assert_eq!(tracer("path:depth=3", Some(7)).and_then(|t| t.max_depth), Some(3));
-        assert_eq!(
-            tracer("path:light=bsdf:roulette=off", None),
-            Some(PathTracer { direct: DirectLight::Bsdf, roulette: Roulette::Off, ..path })
-        );
-        let roulette = |word: &str| tracer(word, None).map(|t| t.roulette);
-        assert_eq!(roulette("path:roulette=5"), Some(Roulette::Throughput { from: 5 }));
-        assert_eq!(roulette("path:roulette=0.7"), Some(Roulette::Fixed { p: 0.7, from: 1 }));
-        assert_eq!(roulette("path:from=2:roulette=albedo"), Some(Roulette::Albedo { from: 2 }));
-        assert_eq!(
-            tracer("path:branch=4:threshold=0.01", None),
-            Some(PathTracer { branching: Branching { factor: 4, levels: 1 }, threshold: 0.01, ..path })
-        );
-        assert_eq!(tracer("split", None), Some(PathTracer::split_form()));
-        assert_eq!(tracer("hemisphere:depth=2", None).and_then(|t| t.max_depth), Some(2));
-    }
-
-    #[test]
-    fn other_integrators() {
-        let roulette = Roulette::Off;
-        assert_eq!(method("area:roulette=off", Some(3)), Some(Method::Area { max_depth: Some(3), roulette }));
-        let w = Whitted { max_depth: Some(2), each_light: 0, ..Whitted::default() };
-        assert_eq!(method("whitted:each=0:depth=2", Some(9)), Some(Method::Whitted(w)));
-        let r = RayCaster { shadows: false, ..RayCaster::default() };
-        assert_eq!(method("raycast:shadows=off", Some(1)), Some(Method::RayCast(r)));
-        assert_eq!(method("ao:reach=2.5", None), Some(Method::Occlusion(AmbientOcclusion { reach: 2.5 })));
-        assert_eq!(method("depth", None), Some(Method::First(FirstSurface { show: Show::Depth })));
-    }
-
-    #[test]
-    fn what_is_no_integrator_is_refused() {
-        for bad in [
-            "",
-            "magic",
-            "path:",
-            "path:light",
-            "path:light=x",
-            "path:depth=-1",
-            "direct:depth=2",
-            "split:light=bsdf",
-            "path:roulette=1.5",
-            "path:roulette=-0.5",
-            "path:threshold=-1",
-            "path:reach=1",
-            "ao:reach=x",
-            "ao:depth=1",
-            "raycast:shadows=maybe",
-            "normal:from=1",
-            "whitted:light=bsdf",
-            "path:from=x",
-        ] {
-            assert!(bad.parse::<IntegratorChoice>().is_err(), "{bad}");
-        }
+        named
     }
 }

@@ -1,5 +1,6 @@
 mod bench;
 mod integrator;
+mod integrator_words;
 mod method;
 mod render;
 mod values;
@@ -10,7 +11,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use bench::{BenchArgs, ReferenceArgs};
-pub(crate) use integrator::{IntegratorChoice, Method, Ready};
+pub(crate) use integrator::{Method, Ready};
+pub(crate) use integrator_words::IntegratorChoice;
 pub(crate) use method::{MethodArgs, SamplerName};
 pub(crate) use render::{Aov, RenderArgs, Tone};
 pub(crate) use values::Threads;

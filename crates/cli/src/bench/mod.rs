@@ -13,10 +13,9 @@ use etendue::SystemClock;
 use etendue::core::UVec2;
 use etendue::io::write_atomically;
 use etendue::measure::{Budget, Clocks, Reference, race};
-use etendue::sampling::Sobol;
 use serde_json::json;
 
-use crate::args::{BenchArgs, SamplerName};
+use crate::args::{BenchArgs, Ready, SamplerName};
 use crate::error::CliError;
 use crate::outputs::{check_distinct, check_place, write_json};
 use crate::session::{CpuClock, Interrupt, in_pool, print, say};
@@ -157,7 +156,7 @@ fn measure(args: &BenchArgs, path: &Path, interrupt: &Interrupt) -> Result<Scene
         threads: rayon::current_num_threads(),
         reference,
         curves,
-        bias: ready.iter().map(|r| r.integrator::<Sobol>().bias()).collect(),
+        bias: ready.iter().map(Ready::bias).collect(),
         pictures,
         warnings,
     })

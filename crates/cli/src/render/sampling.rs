@@ -19,8 +19,7 @@ pub(super) fn run(work: &Work<'_>, resumed: Option<FilmFile>) -> Result<Outcome,
 }
 
 fn with<S: Sampler>(work: &Work<'_>, sampler: S, resumed: Option<FilmFile>) -> Result<Outcome, CliError> {
-    let named = work.integrator.integrator::<S>().bias();
-    let bias = work.settings.bias(named);
+    let bias = work.integrator.bias();
     let mut words = work.words.clone();
     words.insert("bias".into(), if bias.is_empty() { "none".into() } else { bias.join("; ") });
     let info = FilmInfo {

@@ -74,12 +74,6 @@ impl Settings {
         })
     }
 
-    /// What is biased, of what the integrator names: that `direct` stops after one scattering event is what it is.
-    pub(crate) fn bias(&self, named: Vec<String>) -> Vec<String> {
-        let by_design = self.integrator.direct_only && self.method.max_depth() == Some(1);
-        named.into_iter().filter(|b| !(by_design && b.starts_with("max_depth="))).collect()
-    }
-
     pub(crate) fn size_of(&self, prepared: &Prepared) -> UVec2 {
         prepared.camera.resolution()
     }

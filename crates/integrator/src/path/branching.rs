@@ -1,8 +1,5 @@
 use super::leg::Carried;
 
-/// Most paths that one camera ray is split into.
-const MOST: u32 = 1 << 16;
-
 /// How many ways a path goes on from a surface: the branching factor. Unbiased, whatever the numbers.
 ///
 /// Each branch draws its own light and its own direction, from an independent point of the sampler, and carries its part
@@ -11,12 +8,15 @@ const MOST: u32 = 1 << 16;
 pub struct Branching {
     /// Ways that a path goes on; 0 and 1 are one way.
     pub factor: u32,
-    /// Scattering events at which it branches, from the camera on. Past 65,536 branches of a camera ray it does not
-    /// branch any more.
+    /// Scattering events at which it branches, from the camera on. Past [`Branching::MOST`] branches of a camera
+    /// ray it does not branch any more.
     pub levels: u32,
 }
 
 impl Branching {
+    /// Most paths that one camera ray is split into.
+    pub const MOST: u32 = 1 << 16;
+
     /// One way on.
     pub const NONE: Self = Self { factor: 1, levels: 0 };
 
@@ -26,7 +26,7 @@ impl Branching {
         if self.factor <= 1 {
             return 1;
         }
-        let all = self.factor.checked_pow(depth.saturating_add(1)).filter(|&n| n <= MOST);
+        let all = self.factor.checked_pow(depth.saturating_add(1)).filter(|&n| n <= Self::MOST);
         if depth < self.levels && all.is_some() { self.factor } else { 1 }
     }
 }

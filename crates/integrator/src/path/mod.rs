@@ -11,6 +11,7 @@ use etendue_sampling::Sampler;
 pub use branching::Branching;
 pub(crate) use direct::cutout_bits;
 pub use roulette::Roulette;
+pub(crate) use roulette::survival_in_tree;
 
 use crate::{Context, Integrator, Recorder, Sample};
 

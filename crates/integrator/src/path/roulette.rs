@@ -35,6 +35,19 @@ pub enum Roulette {
     },
 }
 
+/// What a ray of a tree must carry to be followed for sure, while the tree is shallow: about 64 such rays stand side by side.
+const FAINT: f32 = 1.0 / 64.0;
+/// From this depth on only rays that carry everything are: about one is left.
+const DEEP: u32 = 64;
+
+/// Probability of following a ray of a tree of rays that has no other end. Survivors carry [`FAINT`], and all light in the
+/// end, so there is no least probability that would keep out fireflies; one would let the tree grow.
+pub(crate) fn survival_in_tree(depth: u32, carried: f32) -> f32 {
+    let p = if depth < DEEP { carried / FAINT } else { carried };
+    let most = if depth < LONG_PATH { 1.0 } else { LONG_SURVIVAL };
+    if p > 0.0 && p < most { p } else { most }
+}
+
 impl Roulette {
     /// Probability of going on after `depth` scattering events; 1 draws no random number. `carried` is the largest channel
     /// of the throughput, `albedo` that of the surface just left.
@@ -62,6 +75,15 @@ impl Roulette {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn trees_stay_narrow() {
+        assert_eq!(survival_in_tree(3, 0.5), 1.0);
+        assert_eq!(survival_in_tree(3, FAINT / 4.0), 0.25);
+        assert_eq!(survival_in_tree(DEEP, 0.5), 0.5);
+        assert_eq!(survival_in_tree(LONG_PATH, 1.0), LONG_SURVIVAL);
+        assert_eq!(survival_in_tree(0, f32::NAN), 1.0);
+    }
 
     #[test]
     fn probabilities_of_going_on() {
