@@ -3,6 +3,7 @@ use etendue_core::{Fingerprint, Ray, Spectrum, vector};
 use etendue_sampling::{Dim, Sampler, Slot, warp};
 
 use crate::arrival::{Cone, follow};
+use crate::integrator::calls;
 use crate::path::cutout_bits;
 use crate::shaded::{Shaded, bsdf_at};
 use crate::{Context, Integrator, Recorder, Sample};
@@ -62,13 +63,7 @@ impl AmbientOcclusion {
 }
 
 impl<S: Sampler> Integrator<S> for AmbientOcclusion {
-    fn li(&self, cx: &Context<'_>, s: &CameraSample, u: S, rec: &mut dyn Recorder) -> Sample {
-        self.look(cx, s, u, rec)
-    }
-
-    fn li_plain(&self, cx: &Context<'_>, s: &CameraSample, u: S) -> Sample {
-        self.look(cx, s, u, &mut ())
-    }
+    calls!(look);
 
     fn bias(&self) -> Vec<String> {
         vec![format!("ambient occlusion within {} m: not radiance", self.reach)]

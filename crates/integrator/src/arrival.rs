@@ -1,5 +1,6 @@
 use etendue_core::{Needs, Ray, Spectrum};
 use etendue_geometry::Surface;
+use etendue_light::LightId;
 use etendue_sampling::Sampler;
 
 use crate::path::cutout_bits;
@@ -32,16 +33,7 @@ pub(crate) fn follow<S: Sampler, R: Recorder + ?Sized>(
             let value = beyond * l.escaped(ray);
             if !value.is_black() {
                 out.l += value;
-                let kind = ContributionKind::Escape;
-                rec.contribution(&Contribution {
-                    depth,
-                    kind,
-                    light,
-                    value,
-                    mis_weight: 1.0,
-                    light_pdf: 0.0,
-                    bsdf_pdf: 0.0,
-                });
+                rec.contribution(&alone(ContributionKind::Escape, depth, light, value));
             }
         }
         return None;
@@ -69,16 +61,12 @@ pub(crate) fn add_emission<R: Recorder + ?Sized>(
         return;
     }
     out.l += value;
-    let kind = ContributionKind::Hit;
-    rec.contribution(&Contribution {
-        depth,
-        kind,
-        light,
-        value,
-        mis_weight: 1.0,
-        light_pdf: 0.0,
-        bsdf_pdf: 0.0,
-    });
+    rec.contribution(&alone(ContributionKind::Hit, depth, light, value));
+}
+
+/// Light that was weighed against nothing.
+fn alone(kind: ContributionKind, depth: u32, light: LightId, value: Spectrum) -> Contribution {
+    Contribution { depth, kind, light, value, mis_weight: 1.0, light_pdf: 0.0, bsdf_pdf: 0.0 }
 }
 
 /// The cone of a camera ray, for what textures are averaged over.

@@ -4,6 +4,7 @@ use etendue_core::{Fingerprint, Spectrum, Vec3A};
 use etendue_sampling::Sampler;
 
 use crate::arrival::{Arrival, Cone, follow};
+use crate::integrator::calls;
 use crate::shaded::{Shaded, bsdf_at};
 use crate::{Context, Integrator, Recorder, Sample};
 
@@ -82,13 +83,7 @@ fn of_ids(ids: [u32; 3]) -> Spectrum {
 }
 
 impl<S: Sampler> Integrator<S> for FirstSurface {
-    fn li(&self, cx: &Context<'_>, s: &CameraSample, u: S, rec: &mut dyn Recorder) -> Sample {
-        self.look(cx, s, u, rec)
-    }
-
-    fn li_plain(&self, cx: &Context<'_>, s: &CameraSample, u: S) -> Sample {
-        self.look(cx, s, u, &mut ())
-    }
+    calls!(look);
 
     fn bias(&self) -> Vec<String> {
         vec![format!("{:?} of the first surface: not radiance", self.show)]

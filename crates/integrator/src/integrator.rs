@@ -45,3 +45,18 @@ pub trait Integrator<S: Sampler>: Send + Sync {
         f.opaque();
     }
 }
+
+/// The two ways of calling an integrator of ours, by one function of its that is generic in the recorder: with a recorder
+/// behind a pointer, and without one, compiled for nothing to hear.
+macro_rules! calls {
+    ($walk:ident) => {
+        fn li(&self, cx: &Context<'_>, s: &CameraSample, u: S, rec: &mut dyn Recorder) -> Sample {
+            self.$walk(cx, s, u, rec)
+        }
+
+        fn li_plain(&self, cx: &Context<'_>, s: &CameraSample, u: S) -> Sample {
+            self.$walk(cx, s, u, &mut ())
+        }
+    };
+}
+pub(crate) use calls;

@@ -4,6 +4,7 @@ use etendue_sampling::Sampler;
 
 use crate::arrival::{Cone, add_emission, follow};
 use crate::inside::Inside;
+use crate::integrator::calls;
 use crate::lights::Receiver;
 use crate::shaded::{Shaded, bsdf_at};
 use crate::{Context, Integrator, Recorder, Sample};
@@ -56,13 +57,7 @@ impl RayCaster {
 }
 
 impl<S: Sampler> Integrator<S> for RayCaster {
-    fn li(&self, cx: &Context<'_>, s: &CameraSample, u: S, rec: &mut dyn Recorder) -> Sample {
-        self.cast(cx, s, u, rec)
-    }
-
-    fn li_plain(&self, cx: &Context<'_>, s: &CameraSample, u: S) -> Sample {
-        self.cast(cx, s, u, &mut ())
-    }
+    calls!(cast);
 
     fn bias(&self) -> Vec<String> {
         let what = if self.shadows { "" } else { ", and no shadows" };

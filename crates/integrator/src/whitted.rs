@@ -5,6 +5,7 @@ use etendue_sampling::{Dim, Sampler, Slot};
 
 use crate::arrival::{Cone, add_emission, follow};
 use crate::inside::Inside;
+use crate::integrator::calls;
 use crate::lights::Receiver;
 use crate::path::survival_in_tree;
 use crate::shaded::{Shaded, bsdf_at};
@@ -143,13 +144,7 @@ impl Whitted {
 }
 
 impl<S: Sampler> Integrator<S> for Whitted {
-    fn li(&self, cx: &Context<'_>, s: &CameraSample, u: S, rec: &mut dyn Recorder) -> Sample {
-        self.trace(cx, s, u, rec)
-    }
-
-    fn li_plain(&self, cx: &Context<'_>, s: &CameraSample, u: S) -> Sample {
-        self.trace(cx, s, u, &mut ())
-    }
+    calls!(trace);
 
     fn bias(&self) -> Vec<String> {
         let mut out = vec!["whitted: light between surfaces that are no mirrors is left out, and that of lights found by rays alone".to_owned()];

@@ -11,6 +11,7 @@ use surfaces::{AreaNumbers, AreaSample, Surfaces};
 
 use crate::arrival::{Arrival, Cone, add_emission, follow};
 use crate::inside::Inside;
+use crate::integrator::calls;
 use crate::lights::Receiver;
 use crate::path::{Roulette, cutout_bits};
 use crate::shaded::{Shaded, bsdf_at};
@@ -223,13 +224,7 @@ impl<S> Walk<S> {
 }
 
 impl<S: Sampler> Integrator<S> for AreaForm {
-    fn li(&self, cx: &Context<'_>, s: &CameraSample, u: S, rec: &mut dyn Recorder) -> Sample {
-        self.walk(cx, s, u, rec)
-    }
-
-    fn li_plain(&self, cx: &Context<'_>, s: &CameraSample, u: S) -> Sample {
-        self.walk(cx, s, u, &mut ())
-    }
+    calls!(walk);
 
     fn bias(&self) -> Vec<String> {
         self.max_depth.map(|m| format!("max_depth={m}: longer paths are cut off")).into_iter().collect()

@@ -13,6 +13,7 @@ pub(crate) use direct::cutout_bits;
 pub use roulette::Roulette;
 pub(crate) use roulette::survival_in_tree;
 
+use crate::integrator::calls;
 use crate::{Context, Integrator, Recorder, Sample};
 
 /// How light that reaches a vertex directly is found.
@@ -83,13 +84,7 @@ impl PathTracer {
 }
 
 impl<S: Sampler> Integrator<S> for PathTracer {
-    fn li(&self, cx: &Context<'_>, s: &CameraSample, u: S, rec: &mut dyn Recorder) -> Sample {
-        self.walk(cx, s, u, rec)
-    }
-
-    fn li_plain(&self, cx: &Context<'_>, s: &CameraSample, u: S) -> Sample {
-        self.walk(cx, s, u, &mut ())
-    }
+    calls!(walk);
 
     fn bias(&self) -> Vec<String> {
         let mut out = Vec::new();
