@@ -147,11 +147,11 @@ fn all_ways_lead_to_the_same_light_of_lamps_skies_holes_and_ink() {
 fn all_ways_lead_to_the_same_light_within_half_a_percent() {
     compare_all(20, 8192, 0.005, false);
     compare_all(20, 8192, 0.005, true);
+    compare_whitted(8192, 0.005);
 }
 
 /// Where everything is mirror and clear glass, Whitted's tree holds all light; where nothing is, it holds direct light.
-#[test]
-fn whitted_has_all_the_light_of_mirrors_and_all_direct_light() {
+fn compare_whitted(unit: u32, power: f64) {
     let sky = || {
         let pixels = (0..8 * 4 * 3).map(|i| 0.2 + (i * 7 % 11) as f32 * 0.1).collect();
         ImageEnvironment::new(ImageTexture::from_f32(8, 4, 3, pixels).unwrap(), 1.0, 0.0).unwrap()
@@ -178,7 +178,13 @@ fn whitted_has_all_the_light_of_mirrors_and_all_direct_light() {
     b.light(sky());
     let scene = b.build().unwrap();
     let (whitted, path) = (Whitted::default(), PathTracer::default());
-    assert_agreement(&scene, &camera, &[("whitted", &whitted, 64), ("path", &path, 512)], 20, 0.02);
+    assert_agreement(
+        &scene,
+        &camera,
+        &[("whitted", &whitted, unit / 4), ("path", &path, 2 * unit)],
+        20,
+        power,
+    );
 
     let mut b = SceneBuilder::new();
     let clay = b.material(Diffuse::new(Spectrum::gray(0.6)));
@@ -196,12 +202,17 @@ fn whitted_has_all_the_light_of_mirrors_and_all_direct_light() {
     let one = Whitted { each_light: 0, ..whitted };
     let direct = PathTracer::direct_only();
     let ways: [Way<'_>; 4] = [
-        ("whitted", &whitted, 256),
-        ("one light", &one, 2048),
-        ("raycast", &cast, 256),
-        ("direct", &direct, 1024),
+        ("whitted", &whitted, unit),
+        ("one light", &one, 8 * unit),
+        ("raycast", &cast, unit),
+        ("direct", &direct, 4 * unit),
     ];
-    assert_agreement(&scene, &camera, &ways, 20, 0.03);
+    assert_agreement(&scene, &camera, &ways, 20, power);
+}
+
+#[test]
+fn whitted_has_all_the_light_of_mirrors_and_all_direct_light() {
+    compare_whitted(256, 0.03);
 }
 
 /// A picker may leave a sky to rays: whoever does not look for it by rays draws it all the same.
