@@ -2,6 +2,10 @@
 //!
 //! * [`Sampler`]: one point of an infinite-dimensional point set. [`Sobol`] is the default, [`Stratified`] and
 //!   [`Independent`] are the classics beside it; a user's own enters by the same trait.
+//! * [`Halton`]: a sequence for sample counts that are no powers of two, scrambled by digit permutations or nested.
+//! * [`Hammersley`]: the point set for a number of points known beforehand, for studies; no sampler.
+//! * [`LatinHypercube`]: every dimension stratified by itself, any number of them; for sums of functions of one number.
+//! * [`CorrelatedMultiJittered`]: pairs stratified in cells, columns and rows at once.
 //! * [`warp`]: from the unit square to discs, triangles, hemispheres, cones and solid angles, with densities.
 //! * [`Distribution1d`], [`Distribution2d`], [`AliasTable`], [`remap`]: discrete choices.
 //! * [`mis`]: weights of multiple importance sampling. [`stats`]: moments, and error bars that are true.
@@ -22,20 +26,25 @@
 //! assert!(estimate.standard_error < 0.02, "256 independent samples have 0.11");
 //! ```
 //!
-//! Limits: [`Sobol`] stratifies the first vertex jointly, later vertices each by itself; samples are 24 bits
+//! Limits: [`Sobol`] and [`Halton`] stratify the first vertex jointly, later vertices each by itself; samples are 24 bits
 //! (32 where `f64` is asked for). Nothing here knows rays or surfaces: the crate stands on `etendue-core` alone.
 
+mod block;
 mod dim;
 mod distribution;
+mod halton;
 mod hash;
 mod independent;
+mod latin;
 pub mod mis;
+mod multi_jittered;
 mod permutation;
 pub mod remap;
 mod rng;
 mod sampler;
 mod sobol;
 pub mod stats;
+mod strata;
 mod stratified;
 mod stream;
 pub mod warp;
@@ -44,8 +53,11 @@ pub use dim::{Dim, Slot};
 pub use distribution::{
     AliasSample, AliasTable, Distribution1d, Distribution2d, DistributionError, Sample1d, Sample2d,
 };
+pub use halton::{Halton, Hammersley, Scrambling, radical_inverse};
 pub use hash::{mix, mix2};
 pub use independent::Independent;
+pub use latin::LatinHypercube;
+pub use multi_jittered::CorrelatedMultiJittered;
 pub use rng::pcg32;
 pub use sampler::{BounceDraws, Sampler, unit_f32};
 pub use sobol::Sobol;

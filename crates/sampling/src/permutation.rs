@@ -1,5 +1,7 @@
 //! Random permutations evaluated at one place, without a table.
 
+use crate::hash::GOLDEN;
+
 /// Where `x < 2^bits` goes in a pseudo-random permutation of `0..2^bits` chosen by `key` (a hash), `bits ≤ 32`.
 ///
 /// Multiplications by odd numbers carry bits upward, xor-shifts by half the width carry them down again. Eight rounds
@@ -44,6 +46,19 @@ pub(crate) fn permute(x: u32, n: u32, key: u64) -> u32 {
     y
 }
 
+/// Permutes each range [2^k, 2^(k+1)) within itself.
+#[inline(always)]
+pub(crate) fn permute_octaves(index: u32, key: u64) -> u32 {
+    if index < 2 {
+        return index;
+    }
+    let octave = 31 - index.leading_zeros();
+    let start = 1 << octave;
+    // Ranges must not share a permutation.
+    let key = key.rotate_left(octave).wrapping_mul(GOLDEN);
+    start | permute_bits(index ^ start, octave, key)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -63,6 +78,16 @@ mod tests {
         assert_eq!(permute(0, 0, 1), 0);
         let images: Vec<u32> = (0..1000).map(|x| permute_bits(x << 22 | x, 32, 77)).collect();
         assert!(images.iter().enumerate().all(|(i, y)| !images[..i].contains(y)));
+    }
+
+    #[test]
+    fn octaves_are_permuted_within_themselves() {
+        let mut seen = [false; 4096];
+        for i in 0..4096 {
+            let j = permute_octaves(i, 12345);
+            assert_eq!(i.leading_zeros(), j.leading_zeros());
+            assert!(!std::mem::replace(&mut seen[j as usize], true));
+        }
     }
 
     /// E[(Σ (−1)^(a·x + b·π(x)))²] is N²/(N − 1) for a random permutation, whatever the masks a, b. Averaged over

@@ -1,7 +1,6 @@
 use etendue_core::{Fingerprint, Vec2};
 
-use crate::hash::{keyed, mix};
-use crate::permutation::permute;
+use crate::strata::{PAIR, stratum, within};
 use crate::stream::Stream;
 use crate::{Dim, Sampler, unit_f32};
 
@@ -43,24 +42,7 @@ impl Stratified {
         self.rows = self.points.div_ceil(self.columns);
         self
     }
-
-    /// The stratum of this point among `n ≥ points`, for the draw keyed by `what`.
-    #[inline(always)]
-    fn stratum(&self, what: u32, n: u32) -> u32 {
-        // The remainder is taken at the draw: `index` must stay whole for the jitter.
-        let (set, place) = (self.at.index / self.points, self.at.index % self.points);
-        permute(place, n, mix(keyed(self.at.key, set, what)))
-    }
 }
-
-/// (stratum + jitter) / n in 32-bit fixed point, rounded down.
-#[inline(always)]
-fn within(stratum: u32, jitter: u32, n: u32) -> u32 {
-    ((u64::from(stratum) << 32 | u64::from(jitter)) / u64::from(n.max(1))) as u32
-}
-
-/// Sets pairs' permutations and jitter apart from single draws'.
-const PAIR: u32 = 1 << 31;
 
 impl Sampler for Stratified {
     fn spp(&self) -> u32 {
@@ -84,14 +66,14 @@ impl Sampler for Stratified {
     #[inline]
     fn bits_1d(&self, dim: Dim) -> u32 {
         let d = dim.index();
-        within(self.stratum(d, self.points), (self.at.hash(d) >> 32) as u32, self.points)
+        within(stratum(self.at, self.points, d, self.points), (self.at.hash(d) >> 32) as u32, self.points)
     }
 
     #[inline]
     fn get_2d(&self, dim: Dim) -> Vec2 {
         let d = dim.index() | PAIR;
         // An excess of cells over points is left empty at random; `permute` spreads the points over all cells.
-        let cell = self.stratum(d, self.columns * self.rows);
+        let cell = stratum(self.at, self.points, d, self.columns * self.rows);
         let jitter = self.at.hash(d);
         let (column, row) = (cell % self.columns, cell / self.columns);
         Vec2::new(

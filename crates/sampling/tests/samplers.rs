@@ -1,7 +1,10 @@
 //! What every built-in sampler promises, whatever its point set.
 
 use etendue_core::{Fingerprint, Vec2};
-use etendue_sampling::{BounceDraws, Dim, Independent, Sampler, Slot, Sobol, Stratified, mix, pcg32};
+use etendue_sampling::{
+    BounceDraws, CorrelatedMultiJittered, Dim, Halton, Independent, LatinHypercube, Sampler, Scrambling,
+    Slot, Sobol, Stratified, mix, pcg32,
+};
 
 const SLOTS: [Slot; 7] =
     [Slot::Light, Slot::Bsdf, Slot::Roulette, Slot::Cutout, Slot::Lobe, Slot::Spare0, Slot::Spare1];
@@ -16,6 +19,10 @@ macro_rules! each {
         $check(Stratified::new(5, 64));
         $check(Stratified::new(6, 7));
         $check(Stratified::new(7, 30).with_replicates(3));
+        $check(Halton::new(8, 64));
+        $check(Halton::new(9, 24).with_replicates(3).with_scrambling(Scrambling::DigitPermutation));
+        $check(LatinHypercube::new(10, 30));
+        $check(CorrelatedMultiJittered::new(11, 37));
     };
 }
 

@@ -1,10 +1,12 @@
 //! The samplers through their check suite.
 
-use etendue_sampling::{Independent, Sampler, Sobol, Stratified};
+use etendue_sampling::{
+    CorrelatedMultiJittered, Halton, Independent, LatinHypercube, Sampler, Scrambling, Sobol, Stratified,
+};
 use etendue_testkit::{Budget, check_sampler};
 
 /// Samplers and seeds that share one level.
-const CALLS: usize = 21;
+const CALLS: usize = 51;
 
 fn check<S: Sampler>(name: &str, make: impl Fn(u64) -> S) {
     for seed in 1..=3 {
@@ -24,4 +26,14 @@ fn every_sampler_keeps_the_contract() {
     check("sobol", |seed| Sobol::new(seed, 64));
     check("sobol, odd", |seed| Sobol::new(seed, 100));
     check("sobol in 4 replicates", |seed| Sobol::new(seed, 64).with_replicates(4));
+    check("halton", |seed| Halton::new(seed, 64));
+    check("halton, odd", |seed| Halton::new(seed, 100));
+    check("halton in 4 replicates", |seed| Halton::new(seed, 64).with_replicates(4));
+    check("halton, permuted", |seed| Halton::new(seed, 100).with_scrambling(Scrambling::DigitPermutation));
+    check("latin hypercube", |seed| LatinHypercube::new(seed, 64));
+    check("latin hypercube, odd", |seed| LatinHypercube::new(seed, 37));
+    check("latin hypercube in 4 replicates", |seed| LatinHypercube::new(seed, 44).with_replicates(4));
+    check("multi-jittered", |seed| CorrelatedMultiJittered::new(seed, 64));
+    check("multi-jittered, odd", |seed| CorrelatedMultiJittered::new(seed, 37));
+    check("multi-jittered in 4 replicates", |seed| CorrelatedMultiJittered::new(seed, 44).with_replicates(4));
 }

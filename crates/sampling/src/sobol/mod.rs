@@ -3,8 +3,9 @@ mod owen;
 
 use etendue_core::{Fingerprint, Vec2};
 
+use crate::block::{FIRST_LOBE, LATER_LOBE, Source};
 use crate::hash::{self, keyed};
-use crate::permutation::permute_bits;
+use crate::permutation::permute_octaves;
 use crate::stream::Stream;
 use crate::{BounceDraws, Dim, Sampler, Slot, unit_f32};
 
@@ -37,43 +38,6 @@ use crate::{BounceDraws, Dim, Sampler, Slot, unit_f32};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sobol {
     at: Stream,
-}
-
-/// Dimensions of the sequence that the named dimensions 0..9 take: BSDF before lens, time after both.
-const FIRST_BLOCK: [u32; 9] = [0, 1, 2, 3, 6, 7, 4, 5, 8];
-/// Dimension of the sequence for the first choice of a lobe.
-const FIRST_LOBE: u32 = 9;
-/// Dimension of a later vertex's sequence for the choice of its lobe.
-const LATER_LOBE: u32 = 4;
-
-/// Where a named dimension comes from.
-enum Source {
-    /// Dimension of the first block's sequence.
-    First(u32),
-    /// Dimension of the sequence of the vertex at a depth.
-    Later { depth: u32, dimension: u32 },
-    /// A plain hash.
-    Hash,
-}
-
-impl Source {
-    #[inline(always)]
-    fn of(dim: Dim) -> Self {
-        let d = dim.index();
-        if let Some(&dimension) = FIRST_BLOCK.get(d as usize) {
-            return Self::First(dimension);
-        }
-        if d < Dim::FIRST {
-            return Self::Hash;
-        }
-        let (depth, slot) = ((d - Dim::FIRST) / Dim::STRIDE, (d - Dim::FIRST) % Dim::STRIDE);
-        match (depth, slot) {
-            (0, s) if s == Slot::Lobe as u32 => Self::First(FIRST_LOBE),
-            (_, s) if s == Slot::Lobe as u32 => Self::Later { depth, dimension: LATER_LOBE },
-            (_, s) if s < Slot::Roulette as u32 => Self::Later { depth, dimension: s },
-            _ => Self::Hash,
-        }
-    }
 }
 
 /// Names of keyed hashes; the first block is block 0, the vertex at depth d is block d + 1.
@@ -119,19 +83,6 @@ impl Sobol {
     fn shuffled(&self, block: u32) -> u32 {
         permute_octaves(self.at.index, keyed(self.at.key, block, SHUFFLE))
     }
-}
-
-/// Permutes each range [2^k, 2^(k+1)) within itself.
-#[inline(always)]
-fn permute_octaves(index: u32, key: u64) -> u32 {
-    if index < 2 {
-        return index;
-    }
-    let octave = 31 - index.leading_zeros();
-    let start = 1 << octave;
-    // Ranges must not share a permutation.
-    let key = key.rotate_left(octave).wrapping_mul(hash::GOLDEN);
-    start | permute_bits(index ^ start, octave, key)
 }
 
 impl Sampler for Sobol {
@@ -222,16 +173,6 @@ impl Sampler for Sobol {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn octaves_are_permuted_within_themselves() {
-        let mut seen = [false; 4096];
-        for i in 0..4096 {
-            let j = permute_octaves(i, 12345);
-            assert_eq!(i.leading_zeros(), j.leading_zeros());
-            assert!(!std::mem::replace(&mut seen[j as usize], true));
-        }
-    }
 
     #[test]
     fn all_ways_to_draw_agree() {
