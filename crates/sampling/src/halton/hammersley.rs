@@ -3,8 +3,8 @@ use super::radical::{PRIMES, radical_inverse};
 /// The Hammersley point set (Hammersley 1960): N points fixed beforehand, of which the first coordinate is i/N and the
 /// others are the radical inverses of i in the first primes.
 ///
-/// *When.* For studies, and for one integral whose number of points is known: its discrepancy is below the Halton
-/// sequence's by a factor of log N. It is no [`Sampler`](crate::Sampler): no prefix of it is good, and it is the same
+/// *When.* For studies, and for one integral whose number of points is known: the bound on its star discrepancy
+/// has one factor of log N less than the Halton sequence's of as many dimensions. It is no [`Sampler`](crate::Sampler): no prefix of it is good, and it is the same
 /// in every pixel; a picture wants [`Halton`](crate::Halton).
 ///
 /// ```
