@@ -213,13 +213,15 @@ fn an_environment_lights_a_scene_without_lights() {
 #[test]
 fn samplers_and_filters_are_the_ones_asked_for() {
     let b = Bench::new("samplers");
-    for sampler in ["sobol", "stratified", "independent"] {
-        b.good(&format!(
-            "render a.obj -o {sampler}.exr --size 16x16 --spp 4 --sampler {sampler} --filter tent:1"
-        ));
+    let mut pictures = Vec::new();
+    for sampler in ["sobol", "stratified", "halton", "latin", "cmj", "independent"] {
+        b.good(&format!("render a.obj -o a.hdr --size 16x16 --spp 4 --sampler {sampler} --filter tent:1"));
+        let picture = b.bytes("a.hdr");
+        assert!(!pictures.contains(&picture), "{sampler} is another one's picture");
+        pictures.push(picture);
     }
-    assert_ne!(b.bytes("sobol.exr"), b.bytes("independent.exr"));
-    assert_ne!(b.bytes("stratified.exr"), b.bytes("independent.exr"));
+    let e = b.bad("render a.obj --time 1s --sampler cmj", 2);
+    assert!(e.contains("--sampler cmj"), "{e}");
     b.good("render a.obj -o up.png --size 16x16 --spp 4 --exposure 2");
     b.good("render a.obj -o filmic.png --size 16x16 --spp 4 --exposure 2 --tone-map filmic");
     assert_ne!(b.bytes("up.png"), b.bytes("filmic.png"));

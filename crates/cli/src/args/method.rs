@@ -26,6 +26,31 @@ pub(crate) enum SamplerName {
     Sobol,
     /// Jittered strata of --spp samples
     Stratified,
+    /// Halton's sequence with Owen's scrambling: any number of samples
+    Halton,
+    /// Latin hypercubes (N rooks) of --spp samples
+    Latin,
+    /// Correlated multi-jittered samples, --spp of them
+    Cmj,
     /// Plain random numbers
     Independent,
+}
+
+impl SamplerName {
+    /// Its word on the command line.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Sobol => "sobol",
+            Self::Stratified => "stratified",
+            Self::Halton => "halton",
+            Self::Latin => "latin",
+            Self::Cmj => "cmj",
+            Self::Independent => "independent",
+        }
+    }
+
+    /// Whether it divides a number of samples that is known beforehand, so that fewer of them are no set.
+    pub(crate) fn divides(self) -> bool {
+        matches!(self, Self::Stratified | Self::Latin | Self::Cmj)
+    }
 }

@@ -1,6 +1,8 @@
 use etendue::camera::Filter;
 use etendue::measure::{Contender, Estimator, RenderRun};
-use etendue::sampling::{Independent, Sampler, Sobol, Stratified};
+use etendue::sampling::{
+    CorrelatedMultiJittered, Halton, Independent, LatinHypercube, Sampler, Sobol, Stratified,
+};
 
 use crate::args::{BenchArgs, Method, Ready, SamplerName};
 use crate::error::CliError;
@@ -22,7 +24,7 @@ pub(super) fn entries(args: &BenchArgs) -> Vec<Entry> {
     let mut out = Vec::new();
     for integrator in &args.integrator {
         for &sampler in &args.sampler {
-            let name = format!("{} {}", integrator.word, word(sampler));
+            let name = format!("{} {}", integrator.word, sampler.word());
             if out.iter().any(|e: &Entry| e.name == name) {
                 continue;
             }
@@ -45,14 +47,6 @@ pub(super) fn entries(args: &BenchArgs) -> Vec<Entry> {
     out
 }
 
-fn word(sampler: SamplerName) -> &'static str {
-    match sampler {
-        SamplerName::Sobol => "sobol",
-        SamplerName::Stratified => "stratified",
-        SamplerName::Independent => "independent",
-    }
-}
-
 /// The runs of one entry on a scene, for which its integrator is ready.
 pub(super) fn contender<'a>(
     entry: &Entry,
@@ -68,6 +62,9 @@ pub(super) fn contender<'a>(
         .map(|seed| match entry.sampler {
             SamplerName::Sobol => stage.run(move |n| Sobol::new(seed, n), false),
             SamplerName::Stratified => stage.run(move |n| Stratified::new(seed, n), true),
+            SamplerName::Halton => stage.run(move |n| Halton::new(seed, n), false),
+            SamplerName::Latin => stage.run(move |n| LatinHypercube::new(seed, n), true),
+            SamplerName::Cmj => stage.run(move |n| CorrelatedMultiJittered::new(seed, n), true),
             SamplerName::Independent => stage.run(move |n| Independent::new(seed, n), false),
         })
         .collect();

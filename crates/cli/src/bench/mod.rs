@@ -15,7 +15,7 @@ use etendue::io::write_atomically;
 use etendue::measure::{Budget, Clocks, Reference, race};
 use serde_json::json;
 
-use crate::args::{BenchArgs, Ready, SamplerName};
+use crate::args::{BenchArgs, Ready};
 use crate::error::CliError;
 use crate::outputs::{check_distinct, check_place, write_json};
 use crate::session::{CpuClock, Interrupt, in_pool, print, say};
@@ -32,9 +32,11 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
     for path in args.html.iter().chain(&args.json) {
         check_place(path)?;
     }
-    if args.spp.is_none() && args.time.is_some() && args.sampler.contains(&SamplerName::Stratified) {
+    if args.spp.is_none() && args.time.is_some() {
         // Its longest run is the last alone, and all before it together take as long again.
-        say("note: 'stratified' begins anew at every number of samples");
+        for sampler in args.sampler.iter().filter(|s| s.divides()) {
+            say(&format!("note: '{}' begins anew at every number of samples", sampler.word()));
+        }
     }
     let interrupt = Interrupt::listen();
     let mut results = Vec::new();

@@ -1,6 +1,8 @@
 use etendue::core::Fingerprint;
 use etendue::io::{Digest, FilmFile, FilmInfo, IndexRanges};
-use etendue::sampling::{Independent, Sampler, Sobol, Stratified};
+use etendue::sampling::{
+    CorrelatedMultiJittered, Halton, Independent, LatinHypercube, Sampler, Sobol, Stratified,
+};
 
 use super::work::{Outcome, Work};
 use crate::args::SamplerName;
@@ -14,6 +16,11 @@ pub(super) fn run(work: &Work<'_>, resumed: Option<FilmFile>) -> Result<Outcome,
             with(work, Sobol::new(seed, spp).with_replicates(work.settings.replicates), resumed)
         }
         SamplerName::Stratified => with(work, Stratified::new(seed, spp), resumed),
+        SamplerName::Halton => {
+            with(work, Halton::new(seed, spp).with_replicates(work.settings.replicates), resumed)
+        }
+        SamplerName::Latin => with(work, LatinHypercube::new(seed, spp), resumed),
+        SamplerName::Cmj => with(work, CorrelatedMultiJittered::new(seed, spp), resumed),
         SamplerName::Independent => with(work, Independent::new(seed, spp), resumed),
     }
 }

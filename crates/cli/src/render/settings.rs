@@ -39,8 +39,11 @@ impl Settings {
             (Some(n), _) => n,
             (None, None) => SPP,
             (None, Some(_)) => {
-                if args.sampler == SamplerName::Stratified || args.shard.is_some() {
-                    let why = "'--sampler stratified' and '--shard' divide a number of samples";
+                if args.sampler.divides() || args.shard.is_some() {
+                    let why = format!(
+                        "'--sampler {}' and '--shard' divide a number of samples",
+                        args.sampler.word()
+                    );
                     return Err(CliError::Usage(format!("{why}; give it with '--spp' beside '--time'")));
                 }
                 UNLIMITED
@@ -80,9 +83,8 @@ impl Settings {
 
     pub(crate) fn sampler_word(&self) -> String {
         match self.sampler {
-            SamplerName::Sobol => "sobol".into(),
-            SamplerName::Stratified => format!("stratified of {}", self.spp),
-            SamplerName::Independent => "independent".into(),
+            s if s.divides() => format!("{} of {}", s.word(), self.spp),
+            s => s.word().into(),
         }
     }
 
