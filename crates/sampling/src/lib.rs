@@ -5,6 +5,7 @@
 //! * [`warp`]: from the unit square to discs, triangles, hemispheres, cones and solid angles, with densities.
 //! * [`Distribution1d`], [`Distribution2d`], [`AliasTable`], [`remap`]: discrete choices.
 //! * [`mis`]: weights of multiple importance sampling. [`stats`]: moments, and error bars that are true.
+//! * [`quality`]: how evenly points lie: discrepancies, and the strength of nets.
 //!
 //! ```
 //! use etendue_sampling::{Dim, Sampler, Slot, Sobol, stats, warp};
@@ -31,6 +32,7 @@ mod hash;
 mod independent;
 pub mod mis;
 mod permutation;
+pub mod quality;
 pub mod remap;
 mod rng;
 mod sampler;
