@@ -17,6 +17,20 @@ pub enum QualityError {
         /// Its value.
         value: f64,
     },
+    /// Not as many points as the net should have.
+    #[error("{got} points are no net of 2^{m}: pass exactly that many")]
+    PointCount {
+        /// Digits asked for.
+        m: u32,
+        /// Points passed.
+        got: usize,
+    },
+    /// More digits than the coordinates have.
+    #[error("a net of 2^{m} points needs {m} binary digits: coordinates and matrices have 32")]
+    Digits {
+        /// Digits asked for.
+        m: u32,
+    },
 }
 
 /// Refuses empty sets, and points outside [0, 1)^D.

@@ -11,6 +11,7 @@
 //! | [`centred_l2`] | mean | from the nearest corner, in all faces | O(D N²) |
 //! | [`wrap_around_l2`] | mean | anywhere on the torus, in all faces | O(D N²) |
 //! | [`mixture`] | mean | a mixture of those two | O(D N²) |
+//! | [`net_t_by_counting`], [`net_t_by_rank`] | worst | dyadic, of 2^t points each | see there |
 //!
 //! ```
 //! use etendue_sampling::{Dim, Independent, Sampler, Sobol, quality};
@@ -27,8 +28,12 @@
 
 mod error;
 mod l2;
+mod net;
+mod rank;
 mod star;
 
 pub use error::QualityError;
 pub use l2::{centred_l2, l2_star, mixture, wrap_around_l2};
+pub use net::net_t_by_counting;
+pub use rank::net_t_by_rank;
 pub use star::{star_discrepancy, star_discrepancy_1d, star_discrepancy_2d};
