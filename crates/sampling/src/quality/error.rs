@@ -17,6 +17,16 @@ pub enum QualityError {
         /// Its value.
         value: f64,
     },
+    /// No grid, or one that is too fine.
+    #[error(
+        "a grid of {cells} cells along each of {dimensions} axes: take 1 or more, and at most 2²⁴ corners"
+    )]
+    Grid {
+        /// Cells an axis.
+        cells: usize,
+        /// Axes.
+        dimensions: usize,
+    },
     /// Not as many points as the net should have.
     #[error("{got} points are no net of 2^{m}: pass exactly that many")]
     PointCount {

@@ -7,6 +7,7 @@
 //! |---|---|---|---|
 //! | [`star_discrepancy_1d`] | worst | from the origin | O(N log N) |
 //! | [`star_discrepancy_2d`], [`star_discrepancy`] | worst | from the origin | O(N²), O(N^D) |
+//! | [`star_discrepancy_bounds`] | worst, from both sides | from the origin | of a grid |
 //! | [`l2_star`] | mean | from the origin | O(D N²) |
 //! | [`centred_l2`] | mean | from the nearest corner, in all faces | O(D N²) |
 //! | [`wrap_around_l2`] | mean | anywhere on the torus, in all faces | O(D N²) |
@@ -26,12 +27,14 @@
 //! # Ok::<(), quality::QualityError>(())
 //! ```
 
+mod bounds;
 mod error;
 mod l2;
 mod net;
 mod rank;
 mod star;
 
+pub use bounds::{StarBounds, star_discrepancy_bounds};
 pub use error::QualityError;
 pub use l2::{centred_l2, l2_star, mixture, wrap_around_l2};
 pub use net::net_t_by_counting;
