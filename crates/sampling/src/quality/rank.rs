@@ -6,7 +6,7 @@ use super::net::check_digits;
 /// `d` by exclusive or, in units of 2⁻³²: direction numbers, as [`Sobol::direction_numbers`](crate::Sobol) has them.
 ///
 /// t = m - ρ, where ρ is the largest number for which any ρ rows that are the first k₁, …, kₛ of the matrices, k₁ + … +
-/// kₛ = ρ, are linearly independent over GF(2) (Niederreiter 1987, theorem 6.10; Schmid 1999). Owen's scrambling and
+/// kₛ = ρ, are linearly independent over GF(2) (Niederreiter 1987; Schmid 1999). Owen's scrambling and
 /// digital shifts leave it as it is. Tries all ways to split up to ρ + 1 rows among the matrices, with one step of
 /// Gaussian elimination each.
 ///

@@ -4,6 +4,8 @@ use etendue_sampling::Sobol;
 use etendue_sampling::quality::{QualityError, net_t_by_counting, net_t_by_rank};
 use proptest::prelude::*;
 
+use crate::config;
+
 type Matrix = [u32; 32];
 
 /// Exact t of the first 2^m points of Joe & Kuo's sequence in some of its dimensions, for m = 4, 6, 8, 10, 12.
@@ -66,7 +68,7 @@ fn wrong_strengths_are_rejected() {
         };
         assert!(missed(by_rank).is_some());
     }
-    // One digit off: 2^(t + 1) points a box at the best.
+    // One digit less.
     assert!(missed(|matrices, m| net_t_by_rank(matrices, m - 1).unwrap()).is_some());
     // A coordinate that is left out.
     assert!(missed(|matrices, m| net_t_by_rank(&matrices[1..], m).unwrap()).is_some());
@@ -132,12 +134,7 @@ fn matrices() -> impl Strategy<Value = Vec<Matrix>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 400,
-        rng_seed: prop::test_runner::RngSeed::Fixed(3),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(config(400, 3))]
 
     #[test]
     fn ranks_say_what_counting_says(matrices in matrices(), m in 0..=8u32) {
