@@ -34,9 +34,9 @@ pub fn star_discrepancy_2d(points: &[[f64; 2]]) -> Result<f64, QualityError> {
 /// The star discrepancy sup |#(points in B)/N - volume(B)| over all boxes B = [0, q) in [0, 1]^D, exactly.
 ///
 /// The supremum is reached at the grid of the points' own coordinates (and 1): a box with too many points as the limit
-/// of open boxes that shrink to a *closed* one, a box with too few as an *open* one (Niederreiter 1972; Thiémard 2001). The last axis is swept along an ordered list, so that the time is O(N^max(D, 2)): past two
-/// dimensions for hundreds of points at most, past four for tens;
-/// [`star_discrepancy_bounds`](super::star_discrepancy_bounds) costs less.
+/// of open boxes that shrink to a *closed* one, a box with too few as an *open* one (Niederreiter 1972; Thiémard 2001).
+/// The last axis is swept along an ordered list, so that the time is O(N^max(D, 2)): past two dimensions for hundreds
+/// of points at most, past four for tens; [`star_discrepancy_bounds`](super::star_discrepancy_bounds) costs less.
 ///
 /// # Errors
 ///
