@@ -9,6 +9,7 @@
 //! * [`warp`]: from the unit square to discs, triangles, hemispheres, cones and solid angles, with densities.
 //! * [`Distribution1d`], [`Distribution2d`], [`AliasTable`], [`remap`]: discrete choices.
 //! * [`mis`]: weights of multiple importance sampling. [`stats`]: moments, and error bars that are true.
+//! * [`quality`]: how evenly points lie: discrepancies, and the strength of nets.
 //!
 //! ```
 //! use etendue_sampling::{Dim, Sampler, Slot, Sobol, stats, warp};
@@ -39,6 +40,7 @@ mod latin;
 pub mod mis;
 mod multi_jittered;
 mod permutation;
+pub mod quality;
 pub mod remap;
 mod rng;
 mod sampler;

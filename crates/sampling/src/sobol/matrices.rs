@@ -3,6 +3,9 @@
 //! Everything here is bit-reversed: bit 0 of a value is its first binary digit after the point. That is the order in
 //! which Owen scrambling wants it, and in which dimension 0 is the index itself.
 
+/// How many dimensions there are.
+pub(super) const DIMENSIONS: u32 = 2 + TABLE.len() as u32;
+
 /// One row of the table: degree and inner coefficients of the primitive polynomial, and the initial numbers.
 struct Polynomial {
     degree: usize,

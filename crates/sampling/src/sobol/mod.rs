@@ -58,6 +58,15 @@ impl Sobol {
         self
     }
 
+    /// The generator matrix of one dimension of Joe & Kuo's sequence, before it is scrambled, as direction numbers:
+    /// entry `k` is the coordinate that bit `k` of the index contributes by exclusive or, in units of 2⁻³². `None`
+    /// from dimension 10 on. Coordinates are drawn in the order film, first light, first BSDF, lens (two each), time,
+    /// first lobe; [`net_t_by_rank`](crate::quality::net_t_by_rank) has the strength of any of them together.
+    pub fn direction_numbers(dimension: u32) -> Option<[u32; 32]> {
+        (dimension < matrices::DIMENSIONS)
+            .then(|| std::array::from_fn(|k| matrices::dimension(1 << k, dimension).reverse_bits()))
+    }
+
     /// Scramble seeds of dimensions 2 `pair` and 2 `pair` + 1 of a block.
     #[inline(always)]
     fn seeds(&self, block: u32, pair: u32) -> (u32, u32) {
