@@ -3,7 +3,9 @@
 //! * [`Sampler`]: one point of an infinite-dimensional point set. [`Sobol`] is the default, [`Stratified`] and
 //!   [`Independent`] are the classics beside it; a user's own enters by the same trait.
 //! * [`warp`]: from the unit square to discs, triangles, hemispheres, cones and solid angles, with densities.
-//! * [`Distribution1d`], [`Distribution2d`], [`AliasTable`], [`remap`]: discrete choices.
+//! * [`Distribution1d`], [`Distribution2d`], [`AliasTable`], [`remap`]: discrete choices; [`LinearDistribution1d`]:
+//!   lines; [`Rejection`]: densities without an inverse.
+//! * [`estimate`]: integrals of anything, with any density and sampler.
 //! * [`mis`]: weights of multiple importance sampling. [`stats`]: moments, and error bars that are true.
 //!
 //! ```
@@ -27,10 +29,12 @@
 
 mod dim;
 mod distribution;
+pub mod estimate;
 mod hash;
 mod independent;
 pub mod mis;
 mod permutation;
+mod rejection;
 pub mod remap;
 mod rng;
 mod sampler;
@@ -42,10 +46,12 @@ pub mod warp;
 
 pub use dim::{Dim, Slot};
 pub use distribution::{
-    AliasSample, AliasTable, Distribution1d, Distribution2d, DistributionError, Sample1d, Sample2d,
+    AliasSample, AliasTable, Distribution1d, Distribution2d, DistributionError, LinearDistribution1d,
+    LinearSample1d, Sample1d, Sample2d,
 };
 pub use hash::{mix, mix2};
 pub use independent::Independent;
+pub use rejection::{Accepted, Rejection, RejectionError};
 pub use rng::pcg32;
 pub use sampler::{BounceDraws, Sampler, unit_f32};
 pub use sobol::Sobol;
