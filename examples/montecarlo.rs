@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example montecarlo` prints what four densities leave of the variance, with the exact values
 //! beside, and writes `montecarlo.html`: running estimates of two estimators, and the mean and the variance of 600 of
-//! them against the number of samples, independent and stratified (Yoon 2018, fig. 14.1).
+//! them against the number of samples, independent and stratified (the textbook's Fig. 14.1).
 //! Options: `--size N` (estimators), `--spp N` (samples of each), `--out FOLDER`.
 //!
 //! A density of one's own needs two functions: the inverse of its distribution function, and itself.

@@ -290,7 +290,7 @@ fn moments_merge_and_survive_spikes() {
     assert_eq!([5.0].into_iter().collect::<Moments>().standard_error(), 0.0);
 }
 
-/// The textbook's four events of probability 0.2, 0.1, 0.2 and 0.5 (Yoon 2018, sec. 14.4), with events of zero mass
+/// The textbook's four events of probability 0.2, 0.1, 0.2 and 0.5 (sec. 14.4), with events of zero mass
 /// before, between and after them. Event i owns the half-open interval [Σ before i, Σ with i): its beginning is its
 /// own, its end the next event's, and what has no width has no number.
 #[test]

@@ -1,4 +1,4 @@
-//! Estimates against exact variances, and the textbook's statements about them (Yoon 2018, ch. 14 and 15), put right
+//! Estimates against exact variances, and the textbook's statements about them (chapters 14 and 15), put right
 //! where they are wrong.
 //!
 //! Variances are tested by the mean of (f/p − I)² over independent samples, whose expectation is the variance. With
@@ -56,7 +56,7 @@ fn four_densities_have_their_variances() {
     assert!(!have(&uniform, 1.0, 9.0 / 7.0 * 1.03) && !have(&uniform, 1.015, 9.0 / 7.0));
 }
 
-/// Yoon 2018, sec. 14.3, takes p = x on [0, 1], which integrates to one half. Its 14/12 is what the formula for the
+/// The textbook, sec. 14.3, takes p = x on [0, 1], which integrates to one half. Its 14/12 is what the formula for the
 /// variance (Eq. 14.7) then gives; as an estimator it is wrong, whichever way the points are drawn.
 #[test]
 fn a_density_that_is_not_normalised_is_found_out() {
@@ -94,7 +94,7 @@ fn roulette_needs_its_own_number_or_a_stretched_one() {
 }
 
 /// Var = mean of the strata's variances + variance of their means: 9/7 = 233/448 + 49/64 for the halves of 4x³. Only
-/// the first is left to stratified samples. That all strata have one variance (Yoon 2018, Eq. 15.6) is not so, and not
+/// the first is left to stratified samples. That all strata have one variance (the textbook's Eq. 15.6) is not so, and not
 /// needed: it is 9/448 in the lower half and 457/448 in the upper.
 #[test]
 fn variance_is_within_and_between() {

@@ -58,7 +58,7 @@ fn the_density_is_drawn_at_the_rate_of_theory() {
     assert!(!fits(&tilted, quartic, alpha), "the tilted mutant");
 }
 
-/// Yoon 2018, sec. 14.4, accepts β where α ≤ p(β) with α in [0, 1]. For p = 4x³ that draws min(4x³, 1), with the mean
+/// The textbook, sec. 14.4, accepts β where α ≤ p(β) with α in [0, 1]. For p = 4x³ that draws min(4x³, 1), with the mean
 /// (∫ x min(4x³, 1)) / (∫ min(4x³, 1)) = 0.722, and nobody is told. Here it is an error.
 #[test]
 fn a_bound_below_the_density_is_an_error() {
