@@ -7,7 +7,9 @@
 //! * [`LatinHypercube`]: every dimension stratified by itself, any number of them; for sums of functions of one number.
 //! * [`CorrelatedMultiJittered`]: pairs stratified in cells, columns and rows at once.
 //! * [`warp`]: from the unit square to discs, triangles, hemispheres, cones and solid angles, with densities.
-//! * [`Distribution1d`], [`Distribution2d`], [`AliasTable`], [`remap`]: discrete choices.
+//! * [`Distribution1d`], [`Distribution2d`], [`AliasTable`], [`remap`]: discrete choices; [`LinearDistribution1d`]:
+//!   lines; [`Rejection`]: densities without an inverse.
+//! * [`estimate`]: integrals of anything, with any density and sampler.
 //! * [`mis`]: weights of multiple importance sampling. [`stats`]: moments, and error bars that are true.
 //! * [`quality`]: how evenly points lie: discrepancies, and the strength of nets.
 //!
@@ -33,6 +35,7 @@
 mod block;
 mod dim;
 mod distribution;
+pub mod estimate;
 mod halton;
 mod hash;
 mod independent;
@@ -41,6 +44,7 @@ pub mod mis;
 mod multi_jittered;
 mod permutation;
 pub mod quality;
+mod rejection;
 pub mod remap;
 mod rng;
 mod sampler;
@@ -53,13 +57,15 @@ pub mod warp;
 
 pub use dim::{Dim, Slot};
 pub use distribution::{
-    AliasSample, AliasTable, Distribution1d, Distribution2d, DistributionError, Sample1d, Sample2d,
+    AliasSample, AliasTable, Distribution1d, Distribution2d, DistributionError, LinearDistribution1d,
+    LinearSample1d, Sample1d, Sample2d,
 };
 pub use halton::{Halton, Hammersley, Scrambling, radical_inverse};
 pub use hash::{mix, mix2};
 pub use independent::Independent;
 pub use latin::LatinHypercube;
 pub use multi_jittered::CorrelatedMultiJittered;
+pub use rejection::{Accepted, Rejection, RejectionError};
 pub use rng::pcg32;
 pub use sampler::{BounceDraws, Sampler, unit_f32};
 pub use sobol::Sobol;

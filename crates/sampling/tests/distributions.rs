@@ -289,3 +289,34 @@ fn moments_merge_and_survive_spikes() {
     assert_eq!(Moments::default().variance(), 0.0);
     assert_eq!([5.0].into_iter().collect::<Moments>().standard_error(), 0.0);
 }
+
+/// The textbook's four events of probability 0.2, 0.1, 0.2 and 0.5 (sec. 14.4), with events of zero mass
+/// before, between and after them. Event i owns the half-open interval [Σ before i, Σ with i): its beginning is its
+/// own, its end the next event's, and what has no width has no number.
+#[test]
+fn discrete_events_own_half_open_intervals() {
+    let events = [0.0f64, 0.2, 0.1, 0.0, 0.2, 0.5, 0.0];
+    let d = Distribution1d::new(events).unwrap();
+    assert_eq!(d.total(), 1.0);
+    let sums: Vec<f64> = (0..=events.len()).map(|i| events[..i].iter().sum()).collect();
+    // The mutant of Eq. 14.19 as printed, with closed intervals: the first whose end is at or above the number.
+    let closed = |u: f64| sums[1..].iter().position(|&s| u <= s).unwrap();
+    assert_eq!(closed(0.0), 0, "closed intervals draw an event of zero mass");
+    for (i, &p) in events.iter().enumerate() {
+        let (begin, end) = (sums[i], sums[i + 1]);
+        if p > 0.0 {
+            assert_eq!(d.sample(begin).index, i, "its beginning");
+            assert_eq!(d.sample(end.next_down()).index, i, "just below its end");
+            assert!(end == 1.0 || d.sample(end).index > i, "its end is the next one's");
+            assert!(end == 1.0 || closed(end) == i, "the mutant differs here");
+        }
+    }
+    let n = 100_000u32;
+    let mut counts = [0u32; 7];
+    for i in 0..n {
+        counts[d.sample((f64::from(i) + 0.5) / f64::from(n)).index] += 1;
+    }
+    assert_eq!(counts, [0, 20_000, 10_000, 0, 20_000, 50_000, 0]);
+    let table = AliasTable::new(events).unwrap();
+    assert!((0..n).all(|i| events[table.sample(f64::from(i) / f64::from(n)).index] > 0.0));
+}

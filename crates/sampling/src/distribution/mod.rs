@@ -7,14 +7,17 @@
 //! | table | draws | cost | keeps stratification |
 //! |---|---|---|---|
 //! | [`Distribution1d`] | an index and a position in [0, 1) | O(log n) | yes |
+//! | [`LinearDistribution1d`] | a position in [0, 1), on lines | O(log n) | yes |
 //! | [`Distribution2d`] | a cell and a position in [0, 1)² | O(log n) | yes |
 //! | [`AliasTable`] | an index | O(1) | no |
 
 mod alias;
+mod linear;
 mod one;
 mod two;
 
 pub use alias::{AliasSample, AliasTable};
+pub use linear::{LinearDistribution1d, LinearSample1d};
 pub use one::{Distribution1d, Sample1d};
 pub use two::{Distribution2d, Sample2d};
 
@@ -25,6 +28,9 @@ pub enum DistributionError {
     /// No weights.
     #[error("the distribution has no weights: pass at least one")]
     Empty,
+    /// One value, where lines need two.
+    #[error("one value makes no line: pass at least two, for both ends of [0, 1]")]
+    OneValue,
     /// A NaN or infinite weight.
     #[error(
         "weight {index} is {value}: weights must be finite; look for NaN or overflow where it is computed"

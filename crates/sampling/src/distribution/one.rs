@@ -104,9 +104,17 @@ impl Distribution1d {
         }
     }
 
+    /// Weight of interval `index`, 0 if it is never drawn or there is none.
+    pub(super) fn width(&self, index: usize) -> f64 {
+        match (self.sums.get(index), self.sums.get(index.wrapping_add(1))) {
+            (Some(a), Some(b)) => b - a,
+            _ => 0.0,
+        }
+    }
+
     /// The interval that `u` falls into.
     #[inline]
-    fn invert(&self, u: f64) -> Found {
+    pub(super) fn invert(&self, u: f64) -> Found {
         find(&self.sums, &self.guide, u).unwrap_or_else(|| {
             // Only where the caller's number was not in [0, 1): the end of the last interval that has width.
             let index = self.sums.partition_point(|&s| s < self.total).saturating_sub(1);
