@@ -140,9 +140,11 @@ fn growing(o: &Options) -> Result<Vec<Plot>, EstimateError> {
         points: counts.iter().zip(from).map(|(&n, m)| of(n, m)).collect(),
         ..Series::default()
     };
+    // Straight on these axes.
+    let ends = [1, o.spp];
     let theory = |name: &str, law: &dyn Fn(f64) -> f64, look| Series {
         name: name.into(),
-        points: counts.iter().map(|&n| Point::new(n.into(), law(n.into()))).collect(),
+        points: ends.map(|n| Point::new(n.into(), law(n.into()))).into(),
         line: Line::Dashed,
         look: Some(look),
     };
@@ -155,7 +157,7 @@ fn growing(o: &Options) -> Result<Vec<Plot>, EstimateError> {
     Ok(vec![
         Plot {
             title: "Two estimators as they grow".into(),
-            x: Axis::linear("samples"),
+            x: Axis::log("samples"),
             y: Axis::linear("estimate"),
             series: vec![single(0)?, single(1)?],
             ..Plot::default()
