@@ -22,7 +22,7 @@ fn bad_flags_name_their_cure() {
         ("--time soon", "10s"),
         ("--time 1s --sampler stratified", "--spp"),
         ("--time 1s --shard 1/2", "--spp"),
-        ("--sampler halton", "sobol"),
+        ("--sampler magic", "sobol"),
         ("--integrator magic", "path"),
         ("--aov albedo,nothing", "normal"),
         ("--exposure nan", "-64 to 64"),
