@@ -152,6 +152,7 @@ impl PathTracer {
 }
 
 /// Random bits for partly opaque surfaces along a path's ray, or along its shadow ray.
+#[inline(always)]
 pub(crate) fn cutout_bits<S: Sampler>(
     cx: &Context<'_>,
     needs: Needs,
