@@ -3,7 +3,7 @@ use std::f32::consts::TAU;
 use etendue_core::{Frame, Spectrum, Vec2, Vec3A};
 use etendue_sampling::warp;
 
-use crate::power_lobe::{self, PowerLobe, power_of_rest, sane_exponent, sane_share};
+use crate::power_lobe::{self, PowerLobe, power_lobe_bsdf, power_of_rest, sane_exponent, sane_share};
 use crate::{Bsdf, BsdfAt, BsdfSample, Lobes, Mode};
 
 /// Phong's lobe around the mirrored direction as a BRDF, on either side of the surface (Phong 1975; normalised by
@@ -73,37 +73,4 @@ impl PowerLobe for Phong {
     }
 }
 
-// Everything is out of line: inlined into `BsdfAt`, big frames slow every other model down.
-impl Bsdf for Phong {
-    fn lobes(&self) -> Lobes {
-        power_lobe::lobes(self)
-    }
-
-    fn eval(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> Spectrum {
-        self.eval_pdf(wo, wi, mode).0
-    }
-
-    fn pdf(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> f32 {
-        self.eval_pdf(wo, wi, mode).1
-    }
-
-    #[inline(never)]
-    fn sample(&self, wo: Vec3A, u_lobe: f32, u: Vec2, _mode: Mode) -> Option<BsdfSample> {
-        power_lobe::sample(self, wo, u_lobe, u)
-    }
-
-    #[inline(never)]
-    fn eval_pdf(&self, wo: Vec3A, wi: Vec3A, _mode: Mode) -> (Spectrum, f32) {
-        let (base, lobe, pdf) = power_lobe::parts(self, wo, wi);
-        (base + lobe, pdf)
-    }
-
-    fn eval_classes(&self, wo: Vec3A, wi: Vec3A, _mode: Mode) -> [Spectrum; 4] {
-        let (base, lobe, _) = power_lobe::parts(self, wo, wi);
-        [base, lobe, Spectrum::BLACK, Spectrum::BLACK]
-    }
-
-    fn at(&self) -> BsdfAt<'_> {
-        BsdfAt::Phong(*self)
-    }
-}
+power_lobe_bsdf!(Phong);

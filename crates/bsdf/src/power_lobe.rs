@@ -87,3 +87,44 @@ pub(crate) fn sample(b: &impl PowerLobe, wo: Vec3A, u_lobe: f32, u: Vec2) -> Opt
     let lobe = Lobes::REFLECTION | kind;
     (pdf > 0.0 && weight.is_finite()).then_some(BsdfSample { wi, weight, pdf, lobe, eta: 1.0 })
 }
+
+/// A [`PowerLobe`] as a [`Bsdf`], held by value in the variant of [`BsdfAt`] that has its name. Everything is out of line:
+/// inlined into `BsdfAt`, big frames slow every other model down.
+macro_rules! power_lobe_bsdf {
+    ($model:ident) => {
+        impl Bsdf for $model {
+            fn lobes(&self) -> Lobes {
+                power_lobe::lobes(self)
+            }
+
+            fn eval(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> Spectrum {
+                self.eval_pdf(wo, wi, mode).0
+            }
+
+            fn pdf(&self, wo: Vec3A, wi: Vec3A, mode: Mode) -> f32 {
+                self.eval_pdf(wo, wi, mode).1
+            }
+
+            #[inline(never)]
+            fn sample(&self, wo: Vec3A, u_lobe: f32, u: Vec2, _mode: Mode) -> Option<BsdfSample> {
+                power_lobe::sample(self, wo, u_lobe, u)
+            }
+
+            #[inline(never)]
+            fn eval_pdf(&self, wo: Vec3A, wi: Vec3A, _mode: Mode) -> (Spectrum, f32) {
+                let (base, lobe, pdf) = power_lobe::parts(self, wo, wi);
+                (base + lobe, pdf)
+            }
+
+            fn eval_classes(&self, wo: Vec3A, wi: Vec3A, _mode: Mode) -> [Spectrum; 4] {
+                let (base, lobe, _) = power_lobe::parts(self, wo, wi);
+                [base, lobe, Spectrum::BLACK, Spectrum::BLACK]
+            }
+
+            fn at(&self) -> BsdfAt<'_> {
+                BsdfAt::$model(*self)
+            }
+        }
+    };
+}
+pub(crate) use power_lobe_bsdf;

@@ -1,7 +1,7 @@
 use etendue_core::{Fingerprint, Vec2};
 
-use crate::strata::{stratum, within};
-use crate::stream::Stream;
+use crate::strata::jittered;
+use crate::stream::{Stream, stands};
 use crate::{Dim, Sampler, unit_f32};
 
 /// Latin hypercube sampling, or N rooks: of `spp` samples, every dimension has one in each of `spp` intervals, jittered
@@ -40,28 +40,11 @@ impl LatinHypercube {
 }
 
 impl Sampler for LatinHypercube {
-    fn spp(&self) -> u32 {
-        self.at.spp
-    }
-
-    fn replicates(&self) -> u32 {
-        self.at.replicates
-    }
-
-    #[inline]
-    fn start(self, stream: u64, index: u64) -> Self {
-        Self { at: self.at.start(stream, index), ..self }
-    }
-
-    #[inline]
-    fn fork(self, key: u32) -> Self {
-        Self { at: self.at.fork(key), ..self }
-    }
+    stands!();
 
     #[inline]
     fn bits_1d(&self, dim: Dim) -> u32 {
-        let d = dim.index();
-        within(stratum(self.at, self.points, d, self.points), (self.at.hash(d) >> 32) as u32, self.points)
+        jittered(self.at, self.points, dim.index())
     }
 
     /// What the two dimensions hold.

@@ -2,8 +2,8 @@ use etendue_core::{Fingerprint, Vec2};
 
 use crate::hash::{keyed, mix2};
 use crate::permutation::permute;
-use crate::strata::{PAIR, stratum, within};
-use crate::stream::Stream;
+use crate::strata::{PAIR, jittered, stratum, within};
+use crate::stream::{Stream, stands};
 use crate::{Dim, Sampler, unit_f32};
 
 /// Correlated multi-jittered sampling (Kensler 2013): of `spp` = m · n samples, every two-dimensional draw has one in
@@ -72,28 +72,11 @@ const COLUMNS: u64 = 1;
 const ROWS: u64 = 2;
 
 impl Sampler for CorrelatedMultiJittered {
-    fn spp(&self) -> u32 {
-        self.at.spp
-    }
-
-    fn replicates(&self) -> u32 {
-        self.at.replicates
-    }
-
-    #[inline]
-    fn start(self, stream: u64, index: u64) -> Self {
-        Self { at: self.at.start(stream, index), ..self }
-    }
-
-    #[inline]
-    fn fork(self, key: u32) -> Self {
-        Self { at: self.at.fork(key), ..self }
-    }
+    stands!();
 
     #[inline]
     fn bits_1d(&self, dim: Dim) -> u32 {
-        let d = dim.index();
-        within(stratum(self.at, self.points, d, self.points), (self.at.hash(d) >> 32) as u32, self.points)
+        jittered(self.at, self.points, dim.index())
     }
 
     #[inline]

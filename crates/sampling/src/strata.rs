@@ -19,5 +19,11 @@ pub(crate) fn within(stratum: u32, jitter: u32, n: u32) -> u32 {
     ((u64::from(stratum) << 32 | u64::from(jitter)) / u64::from(n.max(1))) as u32
 }
 
+/// A single draw: the point's stratum of `points`, jittered.
+#[inline(always)]
+pub(crate) fn jittered(at: Stream, points: u32, dimension: u32) -> u32 {
+    within(stratum(at, points, dimension, points), (at.hash(dimension) >> 32) as u32, points)
+}
+
 /// Sets pairs' permutations and jitter apart from single draws'.
 pub(crate) const PAIR: u32 = 1 << 31;

@@ -1,7 +1,7 @@
 use etendue_core::{Fingerprint, Vec2};
 
-use crate::strata::{PAIR, stratum, within};
-use crate::stream::Stream;
+use crate::strata::{PAIR, jittered, stratum, within};
+use crate::stream::{Stream, stands};
 use crate::{Dim, Sampler, unit_f32};
 
 /// Jittered sampling: of `spp` samples, every one-dimensional draw has one in each of `spp` intervals, and every
@@ -45,28 +45,11 @@ impl Stratified {
 }
 
 impl Sampler for Stratified {
-    fn spp(&self) -> u32 {
-        self.at.spp
-    }
-
-    fn replicates(&self) -> u32 {
-        self.at.replicates
-    }
-
-    #[inline]
-    fn start(self, stream: u64, index: u64) -> Self {
-        Self { at: self.at.start(stream, index), ..self }
-    }
-
-    #[inline]
-    fn fork(self, key: u32) -> Self {
-        Self { at: self.at.fork(key), ..self }
-    }
+    stands!();
 
     #[inline]
     fn bits_1d(&self, dim: Dim) -> u32 {
-        let d = dim.index();
-        within(stratum(self.at, self.points, d, self.points), (self.at.hash(d) >> 32) as u32, self.points)
+        jittered(self.at, self.points, dim.index())
     }
 
     #[inline]

@@ -56,3 +56,27 @@ impl Stream {
         keyed(self.key, self.index, what)
     }
 }
+
+/// What a sampler that stands at `at`, a [`Stream`], answers about where it stands.
+macro_rules! stands {
+    () => {
+        fn spp(&self) -> u32 {
+            self.at.spp
+        }
+
+        fn replicates(&self) -> u32 {
+            self.at.replicates
+        }
+
+        #[inline]
+        fn start(self, stream: u64, index: u64) -> Self {
+            Self { at: self.at.start(stream, index), ..self }
+        }
+
+        #[inline]
+        fn fork(self, key: u32) -> Self {
+            Self { at: self.at.fork(key), ..self }
+        }
+    };
+}
+pub(crate) use stands;
