@@ -17,7 +17,7 @@ pub(crate) fn bsdf_at<'a>(cx: &Context<'a>, surface: &mut Surface) -> Option<Bsd
 }
 
 /// A surface as light scatters there on its way out along `wo`. It only borrows the large parts: moved about, they would
-/// cost a path a tenth of its time.
+/// cost a path a tenth of its instructions.
 ///
 /// Two rules make shading normals harmless. A ray that comes from behind the shading normal sees the geometric one:
 /// nothing turns black, and no direction carries more than it should. And shading and geometric normal must agree about
